@@ -52,6 +52,7 @@ draw bouncing_ball --only section_v --size 5x3.5
 draw gear_rattle --only x_min,x_max,impact_power --size 7x3.5
 draw harvester --only impact_power --size 5x3.8
 draw soft_bumper --only contact_force_max --log xy --size 5x3.5
+draw slide --only x_max --size 5x3.8
 draw soft_history --only trajectory --size 7x5
 draw basins --only attractor --size 6x3.8
 draw zones --size 8x4.2

@@ -176,7 +176,7 @@ class AccuracyRun {
     PointAccuracy found{.asked = references_.asked,
                         .horizon = references_.horizon,
                         .impacts = references_.count(Event::Kind::impact),
-                        .rests = references_.count(Event::Kind::rest),
+                        .rests = references_.count(Event::Kind::rest) + references_.count(Event::Kind::stick),
                         .steady_periods = references_.periodic ? references_.steady_periods : point::no_value,
                         .rows = {}};
     for (const Prepared& trial : prepared) found.rows.push_back(row_of(trial, found.rows.size()));

@@ -38,7 +38,7 @@ struct PointAccuracy {
   double asked = 0.0;                       ///< periods to compare: the duration of a transient, else the window
   double horizon = 0.0;                     ///< periods compared: as long as double and 50 digits agree
   double impacts = 0.0;                     ///< number in the reference within the horizon
-  double rests = 0.0;                       ///< number in the reference within the horizon
+  double rests = 0.0;                       ///< number in the reference within the horizon, sticks included
   double steady_periods = point::no_value;  ///< period of the steady motion that repeats are compared with; NaN: none
   std::vector<WorkPrecision> rows;
 };

@@ -6,13 +6,13 @@
 namespace clatter::accuracy {
 namespace {
 
-/// The events on one stop.
+/// The events on one stop; of side none the sticks.
 struct OfStop {
   std::vector<Event> impacts, chatters, rests;
 
   OfStop(std::span<const Event> events, Side side) {
     for (const Event& event : with_rests_joined({events.begin(), events.end()})) {
-      if (event.side != side) continue;
+      if (event.side != side || event.kind == Event::Kind::reversal) continue;
       auto& of_kind = event.kind == Event::Kind::impact    ? impacts
                       : event.kind == Event::Kind::chatter ? chatters
                                                            : rests;
@@ -146,7 +146,7 @@ ContactErrors compare(std::span<const Event> run, std::span<const Event> referen
   ContactErrors errors;
   double fastest = 0.0;
   for (const Event& event : reference) fastest = std::max(fastest, event.speed());
-  for (const Side side : {Side::lower, Side::upper}) {
+  for (const Side side : {Side::lower, Side::none, Side::upper}) {
     const ContactErrors on_stop = compare_on_stop(OfStop(run, side), OfStop(reference, side), latest);
     errors.time = std::max(errors.time, on_stop.time), errors.speed = std::max(errors.speed, on_stop.speed);
     errors.rest = std::max(errors.rest, on_stop.rest);

@@ -44,6 +44,7 @@ class RunObserver {
     if (harmonics_) extrema_.impact(impact);
   }
 
+  void reversal(const motion::Reversal& reversal) { events.push_back(event_of(reversal)); }
   void touch(const motion::Touch& touch) { events.push_back(as_impact(event_of(touch))); }
 
   void finish(RunRecord& record) {

@@ -12,6 +12,8 @@ namespace {
 
 using namespace clatter::accuracy::detail;
 
+constexpr double same_time = 1e-9;
+
 }  // namespace
 
 Event as_impact(Event contact) {
@@ -19,11 +21,15 @@ Event as_impact(Event contact) {
   return contact;
 }
 
+/// Those that a section cuts are one; a stick may follow another one.
 std::vector<Event> with_rests_joined(const std::vector<Event>& events) {
   std::vector<Event> joined;
   for (const Event& event : events) {
-    const bool goes_on = event.kind != Event::Kind::impact && !joined.empty() && joined.back().kind == event.kind &&
-                         joined.back().side == event.side;
+    const bool lasts =
+        event.kind == Event::Kind::rest || event.kind == Event::Kind::chatter || event.kind == Event::Kind::stick;
+    const bool goes_on = lasts && !joined.empty() && joined.back().kind == event.kind &&
+                         joined.back().side == event.side &&
+                         std::abs(event.time - joined.back().end()) <= same_time * (1 + std::abs(event.time));
     if (goes_on)
       joined.back().length = event.end() - joined.back().time;
     else

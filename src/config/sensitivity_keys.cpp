@@ -40,6 +40,12 @@ void check_given(const Settings& settings, const Setting& names, Parameter key) 
     fail(names.location, message + ", and the stops are given one by one; name 'stop_lower' or 'stop_upper'");
   if (key == "quality" && !quantity_given(settings, key))
     fail(names.location, message + ", and the damping isn't given by it; name 'damping' or 'damping_ratio'");
+  if (key == "friction_static" && settings.given(key) == nullptr)
+    fail(names.location, message + ", which isn't given, so that it follows 'friction'; name that, or give it");
+  const Setting* const moved = settings.given("stop_amplitude");
+  if (key.role() == Role::friction && moved != nullptr &&
+      std::ranges::any_of(moved->numbers(), [](double amplitude) { return amplitude != 0; }))
+    fail(names.location, message + ", which conflicts with 'stop_amplitude'; leave it out");
   const bool is_of_collision = key == "stop_R" || key == "stop_R_lower" || key == "stop_R_upper";
   if (is_of_collision && !quantity_given(settings, key))
     fail(names.location, message + ", and the damping of the stop isn't given by it; name 'stop_damping'");

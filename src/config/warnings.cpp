@@ -10,9 +10,12 @@
 namespace clatter::config {
 namespace {
 
-/// Whether a key chooses an observable, as those do that are off by default; the others say how to compute one.
+/// Whether a key chooses an observable, as those do that are off by default; the others say how to compute one, or need
+/// one beside them.
 bool is_observable(const Key& key) {
-  return key.section == "observe" && (key.fallback == "false" || (key.kind == Kind::integer && key.fallback == "0"));
+  const bool needs_another = key.beside.find("[observe]") != std::string_view::npos;
+  return key.section == "observe" && !needs_another &&
+         (key.fallback == "false" || (key.kind == Kind::integer && key.fallback == "0"));
 }
 
 /// Warns of a run that observes nothing, unless every observable is written as off, as by `clatter defaults`.
@@ -152,7 +155,7 @@ bool comes_to_a_standstill(const Settings& settings) {
     return given_everywhere(settings, parameter, [](double value) { return value > 0 && std::isfinite(value); });
   };
   return steady(settings) && unforced(settings) &&
-         (damps("h") || damps("damping") || damps("damping_ratio") || damps("quality"));
+         (damps("h") || damps("damping") || damps("damping_ratio") || damps("quality") || damps("friction"));
 }
 /// Without a spring a section is taken at x = 0, to which a rigid stop at 0 or beyond lets no mass rise.
 bool never_passes_zero(const Settings& settings) {

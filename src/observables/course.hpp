@@ -9,18 +9,18 @@
 namespace clatter::observables {
 
 /// A part of an observed time as it was run: a flight, or a time in contact with a soft stop, up to its event or to a
-/// section; or a time on a rigid stop, at rest or in the summed end of a chatter.
+/// section; or a time on a rigid stop, at rest or in the summed end of a chatter; or a stick.
 struct Stretch {
-  motion::Motion<double> start{};      ///< not of a rest
+  motion::Motion<double> start{};      ///< of a rest and a stick the place alone
   double anchor = 0.0;                 ///< the position that its offset counts from
   double begin = 0.0;                  ///< tau since observation began
   double length = 0.0;                 ///< tau
   Side pressed = Side::none;           ///< the soft stop in contact
-  std::optional<motion::Event> end{};  ///< the event that ends it; of a rest that rest itself; nothing: a section
+  Side ahead = Side::none;             ///< to which it slips; none: it stands
+  std::optional<motion::Event> end{};  ///< the event that ends it; of a rest or a stick that itself; nothing: a section
 
-  [[nodiscard]] bool is_rest() const {
-    return end && (end->kind == motion::Event::Kind::rest || end->kind == motion::Event::Kind::chatter);
-  }
+  [[nodiscard]] bool stands() const { return ahead == Side::none; }
+  [[nodiscard]] bool is_rest() const { return stands() && end->side != Side::none; }  ///< on a rigid stop
 };
 
 /// An observed time, stretch by stretch.

@@ -1,7 +1,7 @@
 #include "observables/course_extremes.hpp"
 
 #include "motion/arc.hpp"
-#include "motion/soft_contact.hpp"
+#include "motion/dry_friction.hpp"
 #include "observables/absolute_arc.hpp"
 #include "observables/range.hpp"
 #include "observables/range_search.hpp"
@@ -13,7 +13,7 @@ namespace {
 template <Effects E>
 Extremes extremes_with(const Course& course, const ObservedSpan& span) {
   const motion::ArcConstants<double, E> constants(span.scene.oscillator);
-  const motion::SoftContact<double> contact(constants, span.scene.stops);
+  const motion::Slips<double, E> slips(constants, span.scene.friction, span.scene.stops);
   Extremes extremes;
   Range range;
   std::size_t i = 0;
@@ -36,12 +36,12 @@ Extremes extremes_with(const Course& course, const ObservedSpan& span) {
         extremes.see({position + span.frame->displacement(sine_cosine_of_turns(quarter / 4.0)), i, 0.0, quarter});
   };
   for (; i < course.size(); ++i) {
-    if (course[i].is_rest())
-      look_at_rest(course[i].anchor);
+    if (course[i].stands())
+      look_at_rest(course[i].start.x);
     else if (course[i].length > 0 && course[i].pressed != Side::none)
-      contact.with_constants(course[i].pressed, look_at);
+      slips.in_contact(course[i].pressed, course[i].ahead, look_at);
     else if (course[i].length > 0)
-      look_at(constants);
+      look_at(slips.towards(course[i].ahead));
   }
   return extremes;
 }

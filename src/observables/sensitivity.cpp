@@ -6,8 +6,9 @@
 
 #include "math/dual.hpp"
 #include "motion/arc.hpp"
-#include "motion/soft_contact.hpp"
+#include "motion/dry_friction.hpp"
 #include "observables/course_extremes.hpp"
+#include "observables/course_slips.hpp"
 #include "observables/quadrature.hpp"
 #include "scene/smooth_effects.hpp"
 
@@ -40,16 +41,16 @@ class Walk {
         scene_(scene),
         force_(force_in_frame(scene.oscillator, scene.shaking)),
         mass_(mass),
-        constants_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude,
-                                                      scene.oscillator.frequency, scene.oscillator.load,
-                                                      scene.oscillator.stiffness)),
-        contact_(constants_, scene.stops) {}
+        still_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude,
+                                                  scene.oscillator.frequency, scene.oscillator.load,
+                                                  scene.oscillator.stiffness)),
+        slips_(still_, scene.friction, scene.stops) {}
 
   Sensitivity::ByKey run() {
     const std::size_t first = begin();
     for (std::size_t n = 0; n < course_.size(); ++n) {
       const std::size_t i = (first + n) % course_.size();
-      course_[i].is_rest() ? stay(i) : follow(i);
+      course_[i].stands() ? stay(i) : follow(i);
     }
     return closes_ ? result() : Sensitivity::ByKey{};
   }
@@ -67,49 +68,61 @@ class Walk {
   }
 
   /// The first stretch to follow. A rest forgets all that went before, so that the course of a motion that rests is
-  /// followed from a release on; any other begins at a section, with an unknown state.
+  /// followed from a release on; any other begins at a section, with an unknown state. Motion that stands for ever
+  /// stays at its place.
   std::size_t begin() {
     state_.phase = force_.lead;
     for (std::size_t i = 0; i < course_.size(); ++i)
-      if (!course_[i].is_rest() && course_[(i + course_.size() - 1) % course_.size()].is_rest()) {
-        forgets_ = rests_ = true, held_ = course_[(i + course_.size() - 1) % course_.size()].end->side;
+      if (const Stretch& before = course_[(i + course_.size() - 1) % course_.size()];
+          !course_[i].stands() && before.is_rest()) {
+        forgets_ = stands_ = true, state_.x = position(before.end->side);
         return i;
       }
-    forgets_ = !course_.empty() && course_.front().is_rest();  // for ever
+    forgets_ = std::ranges::all_of(course_, &Stretch::stands);
     if (!course_.empty())
       state_.x = Along(course_.front().start.x, by_x), state_.v = Along(course_.front().start.v, by_v);
     first_ = state_;
     return 0;
   }
 
-  /// A time on a stop takes all energy that is left.
+  /// A time on a stop takes all energy that is left, and a stick the speed; friction has taken the energy by then.
   void stay(std::size_t i) {
-    held_ = course_[i].end->side;
-    if (!rests_) lost_ += state_.v * state_.v / 2;
-    rests_ = true, state_.v = Along(0);
+    if (course_[i].is_rest()) {
+      if (!stands_) lost_ += state_.v * state_.v / 2;
+      state_.x = position(course_[i].end->side);
+    }
+    stands_ = true, state_.v = Along(0);
     each_place(i, [&](const Place& place) {
-      Along x = position(held_);
+      Along x = state_.x;
       if (place.quarter >= 0) x += frame_at(sine_cosine_of_turns(place.quarter / 4.0).sine, 0.0, 0.0).x;
       return x;
     });
   }
-  /// A stop releases the mass where the pressing force falls to 0 (eq. 26).
-  void release(const motion::Motion<double>& m) {
-    const Along sine = (constants_.spring(position(held_)) - constants_.load) / constants_.f;
-    state_ = {position(held_), Along(0), with_slope_of(0, sine / m.cosine)};
-    closes_ = closes_ && std::abs(m.a) <= same * std::abs(constants_.f.value);
-    rests_ = false;
+  /// The mass is released where the pull on it passes the level of friction, on a stop without friction 0 (eqs. 26 and
+  /// 66).
+  void release(const Stretch& stretch) {
+    const motion::Motion<double>& m = stretch.start;
+    Along needed = still_.spring(state_.x) - still_.load + sign_of(stretch.ahead) * slips_.static_level;
+    if (stretch.pressed != Side::none) {
+      const auto stop = motion::soft_stop_at<Along>(scene_.stops, stretch.pressed);
+      needed += stop.stiffness * (state_.x - stop.position);
+    }
+    const Along sine = needed / still_.f;
+    state_.phase = with_slope_of(0, sine / m.cosine);
+    const double begins = slips_.release_acceleration(stretch.ahead).value;
+    closes_ = closes_ && std::abs(m.a - begins) <= same * std::abs(still_.f.value);
+    stands_ = false;
   }
 
   void follow(std::size_t i) {
     const Stretch& stretch = course_[i];
-    if (rests_) release(stretch.start);
+    if (stands_) release(stretch);
     check(state_, stretch.start);
     const auto fly = [&](const auto& constants) { this->fly(i, constants); };
     if (stretch.pressed == Side::none)
-      fly(constants_);
+      fly(slips_.towards(stretch.ahead));
     else
-      contact_.with_constants(stretch.pressed, fly);
+      slips_.in_contact(stretch.pressed, stretch.ahead, fly);
   }
 
   template <Effects of>
@@ -144,10 +157,11 @@ class Walk {
     return {offset, x, v, with_slope_of(m.a, a), sine, cosine};
   }
 
-  /// By how much the end of a stretch comes later: the surface of its event (eqs. 4 and 50), or the phase of a section,
-  /// over its rate of change. Its value is 0.
+  /// By how much the end of a stretch comes later: the surface of its event (eqs. 4 and 50; of a slip the velocity), or
+  /// the phase of a section, over its rate of change. Its value is 0.
   [[nodiscard]] Along lateness(const Stretch& stretch, const Motion& end, const Along& phase) const {
     if (!stretch.end) return with_slope_of(0, (force_.lead - phase) / scene_.oscillator.frequency.value);
+    if (ends_slip(*stretch.end)) return with_slope_of(0, -end.v / end.a.value);
     const Side side = stretch.end->side;
     const Along beyond = end.offset + stretch.anchor - position(side);
     if (stretch.end->kind == Event::Kind::impact || stretch.end->kind == Event::Kind::touch)
@@ -157,6 +171,10 @@ class Walk {
     return with_slope_of(0, -(beyond + relaxation * end.v) / (end.v.value + relaxation.value * end.a.value));
   }
 
+  [[nodiscard]] static bool ends_slip(const Event& event) {
+    return event.kind == Event::Kind::stick || event.kind == Event::Kind::reversal;
+  }
+
   /// What an event does with the velocity.
   void meet(const Event& event) {
     if (event.kind == Event::Kind::impact || event.kind == Event::Kind::touch) {
@@ -164,6 +182,7 @@ class Walk {
       Along& fastest = fastest_[index_of(event.side)];
       if (!(fastest.value >= speed.value)) fastest = speed;
     }
+    if (ends_slip(event)) state_.v = Along(0);
     if (event.kind != Event::Kind::impact) return;
     const Along R = event.side == Side::upper ? scene_.stops.restitution_upper : scene_.stops.restitution_lower;
     const Along after = Restitution<Along>{R}.after(state_.v);
@@ -262,12 +281,11 @@ class Walk {
   const Extremes& extremes_;
   const BasicScene<Along>& scene_;
   LeadingForce<Along> force_;
-  Along mass_;  ///< over that of the units
-  motion::ArcConstants<Along, E> constants_;
-  motion::SoftContact<Along> contact_;
+  Along mass_;                            ///< over that of the units
+  motion::ArcConstants<Along, E> still_;  ///< without friction
+  motion::Slips<Along, E> slips_;
   State state_{}, first_{};
-  Side held_ = Side::none;  ///< the stop that held the mass last
-  bool rests_ = false, forgets_ = false, closes_ = true;
+  bool stands_ = false, forgets_ = false, closes_ = true;
   Along least_{}, greatest_{}, lost_{};
   std::array<Along, 2> fastest_{no_derivative(), no_derivative()};  ///< [stop]
 
@@ -283,51 +301,31 @@ bool has_derivative(const BasicScene<Along>& scene) {
   return scene.oscillator.stiffness.value != 0 || scene.oscillator.stiffness.is_constant();
 }
 
+Sensitivity::ByKey derivative_by(Parameter key, const Course& course, const ObservedSpan& span,
+                                 const Extremes& extremes) {
+  auto given = with_numbers<Along>(*span.given);
+  differentiate_by(given, key, by_key);
+  const BasicScene<Along> scene = computed(given, span.units);
+  if (!has_derivative(scene)) return {};
+  return with_smooth_effects<true>(span.scene.oscillator, [&]<Effects E>() {
+    return Walk<E>(course, span, extremes, scene, given.mass / span.units.mass).run();
+  });
+}
+
 }  // namespace
 
 std::vector<Sensitivity::ByKey> sensitivities(const Course& course, const ObservedSpan& span,
                                               const std::vector<Parameter>& keys) {
   std::vector<Sensitivity::ByKey> all;
   const Extremes extremes = extremes_of(course, span);
-  with_smooth_effects<true>(span.scene.oscillator, [&]<Effects E>() {
-    for (const Parameter key : keys) {
-      auto given = with_numbers<Along>(*span.given);
-      differentiate_by(given, key, by_key);
-      const BasicScene<Along> scene = computed(given, span.units);
-      all.push_back(has_derivative(scene) ? Walk<E>(course, span, extremes, scene, given.mass / span.units.mass).run()
-                                          : Sensitivity::ByKey{});
+  const bool is_rough = has_friction(span.scene.friction);
+  for (const Parameter key : keys) {
+    if (is_rough || key.role() != Role::friction) {
+      all.push_back(derivative_by(key, course, span, extremes));
+    } else {  // from 0 on
+      const Course slips = divided_into_slips(course, span);
+      all.push_back(derivative_by(key, slips, span, extremes_of(slips, span)));
     }
-  });
-  return all;
-}
-
-std::vector<Column<Sensitivity::Values>> Sensitivity::columns(const Settings& settings) {
-  std::vector<Column<Values>> all;
-  const std::vector<Parameter> keys = settings.sensitivity.list();
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const Parameter key = keys[i];
-    std::string_view missing = "the motion has no period, no force drives it, or it grazes a stop";
-    const auto add = [&](const std::string& name, Quantity quantity, FrameOf frame, auto ByKey::*member,
-                         std::vector<Coordinate> along = {}) {
-      const auto put = [i, member](const Values& values, double* out) {
-        const ByKey own = i < values.sensitivities.size() ? values.sensitivities[i] : ByKey{};
-        if constexpr (requires { (own.*member).size(); })
-          std::ranges::copy(own.*member, out);
-        else
-          *out = own.*member;
-      };
-      Column<Values>& column = all.emplace_back();
-      column.name = "d_" + name + "_d_" + std::string(key.key());
-      column.long_name = "derivative of " + name + " by " + std::string(key.key());
-      column.quantity = quantity, column.per = key.row().quantity, column.frame = frame;
-      column.along = std::move(along), column.put = put, column.missing_if = missing;
-    };
-    add("x_min", Quantity::length, FrameOf::observed, &ByKey::x_min);
-    add("x_max", Quantity::length, FrameOf::observed, &ByKey::x_max);
-    add("period", Quantity::time, FrameOf::any, &ByKey::period);
-    add("impact_power", Quantity::power, FrameOf::any, &ByKey::impact_power);
-    missing = "the motion has no period, no force drives it, it grazes a stop, or it doesn't hit this one";
-    add("impact_speed", Quantity::velocity, FrameOf::relative, &ByKey::impact_speed, {stop_coordinate()});
   }
   return all;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "motion/event.hpp"
@@ -27,14 +28,23 @@ class Sensitivity::Observer {
     if constexpr (!motion::Polynomial<A>) {  // of general methods there are none
       if (!is_sought_) return;
       stability_.arc(arc, begin, length);
-      course_.push_back({arc.start(), arc.anchor(), begin, length});
+      // the sign of the friction, of 0 too, is against the velocity
+      const Side ahead = std::signbit(arc.constants().friction) ? Side::upper : Side::lower;
+      course_.push_back({arc.start(), arc.anchor(), begin, length, Side::none, ahead});
       if constexpr (A::effects.stiffness) course_.back().pressed = arc.constants().stop.side;
     }
   }
   void rest(const motion::Rest& rest) {
     if (!is_sought_) return;
     stability_.rest(rest);
-    course_.push_back({{}, rest.position, rest.time, rest.length, Side::none, event_of(rest)});
+    const motion::Event event = event_of(rest);
+    if (rest.is_stick() && !course_.empty() && !course_.back().end) end_with(event);
+    motion::Motion<double> place{};
+    place.x = rest.position;
+    course_.push_back({place, rest.position, rest.time, rest.length, Side::none, Side::none, event});
+  }
+  void reversal(const motion::Reversal& reversal) {
+    if (is_sought_) stability_.reversal(reversal), end_with(event_of(reversal));
   }
   void impact(const motion::Impact& impact) {
     if (is_sought_) stability_.impact(impact), end_with(event_of(impact));

@@ -92,6 +92,7 @@ std::string effect_set_name(const Effects& effects) {
                                                      : "heavy damping";
   if (set.forcing != Forcing::none) name += set.forcing == Forcing::regular ? ", forcing" : ", resonant forcing";
   name += set.stops() ? ", impacts" : ", no stops";
+  if (set.friction) name += ", friction";
   return name;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "scene/displacement_bound.hpp"
 #include "scene/required_effects.hpp"
 
 namespace clatter::plan {
@@ -144,6 +145,16 @@ Reason soft_reason(const point::Problem& scene, const Effects& effects) {
   return {"soft stops", true, of_lower ? lower : upper};
 }
 
+/// Friction, and whether it holds the mass from the start on, for good.
+Reason friction_reason(const point::Problem& scene) {
+  const auto& [kinetic, level] = scene.friction;
+  std::string why = "friction = " + text(kinetic);
+  if (level != kinetic) why += ", friction_static = " + text(level);
+  if (scene.start.velocity == 0 && sticks_for_good(scene, scene.start.displacement))
+    why += ": the mass never moves, since the other forces at its start never exceed " + text(level);
+  return {"friction", true, why};
+}
+
 Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
   const std::string effect = "chatter and rest";
   if (!needs.effects.stops()) return {effect, false, "no stop in reach"};
@@ -154,13 +165,16 @@ Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
   const bool lower_first = lower && (!upper || needs.lower_gap < needs.upper_gap);
   const double gap = lower_first ? constant_force(scene.oscillator, scene.stops.lower)
                                  : -constant_force(scene.oscillator, scene.stops.upper);
-  const std::string force = "|f| = " + text(std::abs(scene.oscillator.forcing)) +
+  const std::string force = (needs.effects.friction ? "|f| + static friction = " : "|f| = ") +
+                            text(std::abs(scene.oscillator.forcing) + scene.friction.static_level) +
                             (needs.effects.rest ? " >= " : " < ") + text(gap) +
                             (scene.oscillator.stiffness != 1 ? ", k times the stop less the load"
                              : scene.oscillator.load == 0    ? ""
                                                              : ", the gap from the load");
   return {effect, needs.effects.rest,
-          force + (needs.effects.rest ? ": a stop can be pressed" : ": no stop can hold the mass")};
+          force + (!needs.effects.rest      ? ": no stop can hold the mass"
+                   : needs.effects.friction ? ": a stop can be pressed, or friction hold the mass on it"
+                                            : ": a stop can be pressed")};
 }
 
 /// The share of the time that leaving an effect out saves, as measured on the ladder of scenes in src/scene/README.md.
@@ -190,6 +204,7 @@ std::vector<Reason> reasons_of(const point::Problem& scene) {
                               dissipation_reason(scene, needs.effects), rest_reason(scene, needs)};
   if (scene.oscillator.stiffness != 1 || scene.units != Units{}) reasons.push_back(stiffness_reason(scene));
   if (has_soft_stop(scene.stops)) reasons.push_back(soft_reason(scene, needs.effects));
+  if (needs.effects.friction) reasons.push_back(friction_reason(scene));
   if (is_shaken(scene.shaking)) reasons.push_back(shaking_reason(scene));
   for (Reason& reason : reasons) {
     const bool has_no_set = effect_set_of(kept_in(needs.effects, reason.effect)) == effect_set_of(needs.effects);

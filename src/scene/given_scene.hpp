@@ -90,7 +90,7 @@ template <class Number>
   BasicScene<Number> scene = given;
   if (!is_in_own_units) scene = detail::in_units(given, units);
   auto& [kinetic, static_level] = scene.friction;  // 0: the static level isn't given
-  if (static_level < kinetic) static_level = kinetic;
+  if (static_level < kinetic || is_always_zero(static_level)) static_level = kinetic;
   detail::damp(scene.stops.stiffness_lower, given.stop_restitution_lower, scene.stops.damping_lower);
   detail::damp(scene.stops.stiffness_upper, given.stop_restitution_upper, scene.stops.damping_upper);
   if (is_finite(

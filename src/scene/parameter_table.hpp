@@ -149,11 +149,11 @@ constexpr auto parameter_rows() {
       Row{.key = "friction_static",
           .quantity = force,
           .range = not_negative,
-          .in_scene = {"", "0.3",
+          .in_scene = {"", "0.5",
                        "static level of the dry friction, the largest force against which it holds a mass at rest, no "
                        "less than friction; without this key equal to it",
                        friction_only, "static friction"},
-          .in_machine = {"", "3 N",
+          .in_machine = {"", "5 N",
                          "static level of the dry friction, the largest force against which it holds a mass at rest, "
                          "no less than friction; without this key equal to it",
                          "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nfriction = 2.0\n", "static friction"},

@@ -88,7 +88,7 @@ class EventDriven : public SoftPhases<Method, N, E> {
     const Side side = contact.side;
     if (side != Side::none && contact.elapsed == 0 && state.v == 0) {
       if (!E.soft || !is_soft(this->stops(), side) || !this->begin_pressed(state, contact))
-        pass_zero_force(state, motion::stop_at<Number>(this->stops(), side), end, origin, observer);
+        wait(state, side, end, origin, observer);
       return Outcome::completed;
     }
     observer.arc(arc, this->time(state, origin), static_cast<double>(contact.elapsed));
@@ -226,7 +226,7 @@ class EventDriven : public SoftPhases<Method, N, E> {
     state.from_stop = stop.side, state.offset = 0;
     if (const auto release = upcoming(release_turns(stop), state.phase_turns, end))
       until = *release, state.released = true;
-    this->show_rest(state, stop, Number(until - state.phase_turns), true, origin, observer);
+    this->show_rest(state, stop.side, Number(until - state.phase_turns), true, origin, observer);
     state.phase_turns = until;
     return Outcome::completed;
   }
@@ -255,7 +255,7 @@ class EventDriven : public SoftPhases<Method, N, E> {
       if (const auto release =
               upcoming(in_section(holding.release_phase(this->constants(), side)), state.phase_turns, until))
         until = *release, state.released = true;
-    this->show_stand(state, holding.stop, Number(until - state.phase_turns), true, origin, observer);
+    this->show_rest(state, holding.stop, Number(until - state.phase_turns), true, origin, observer);
     state.phase_turns = until;
     return Outcome::completed;
   }
@@ -266,15 +266,19 @@ class EventDriven : public SoftPhases<Method, N, E> {
     const Side ahead = this->heading(state);
     const auto stop = motion::stop_at<Number>(this->stops(), ahead);
     const bool begins = state.v == 0;
-    const auto crossing = this->cross(this->slips().towards(ahead), state, this->slip_margins(state, ahead), end,
-                                      origin, observer, this->slips().release_acceleration(ahead));
+    const Number rounding = this->rounding_of_gap(state, stop);
+    const auto margins = this->slip_margins(state, ahead);
+    const auto crossing = this->cross(this->slips().towards(ahead), state, margins, end, origin, observer,
+                                      this->slips().release_acceleration(ahead));
     if (!crossing.resolved) return this->outcome_at(crossing);
     if (begins && crossing.margin < 2 && crossing.elapsed == 0) return begin_anew(state, ahead, end, origin, observer);
     state.released = false;
-    if (is_still(crossing)) turn(state, ahead, origin, observer);
-    if (crossing.margin != 0) return Outcome::completed;
+    const bool still = this->is_still(crossing), touches = still && margins[0].of(crossing.motion) <= rounding;
+    if (still && !touches) turn(state, ahead, origin, observer);
+    if (crossing.margin != 0 && !touches) return Outcome::completed;
     state.x = stop.position;
-    if (stop.into(state.v) < 0) state.v = 0;
+    const Number brakes = -stop.into(crossing.motion.a), speed = stop.into(state.v);
+    if (touches || speed < 0 || speed * speed <= 2 * brakes * rounding) state.v = 0;
     return meet(state, stop, end, origin, observer);
   }
   /// The same in contact with a soft stop, whose force may fall to 0.
@@ -293,12 +297,8 @@ class EventDriven : public SoftPhases<Method, N, E> {
     if (begins && crossing.margin < 2 && crossing.elapsed == 0) return begin_anew(state, ahead, end, origin, observer);
     state.released = false;
     if (crossing.margin == 0) this->separate(state, stop, origin, observer);
-    if (is_still(crossing)) turn(state, ahead, origin, observer);
+    if (this->is_still(crossing)) turn(state, ahead, origin, observer);
     return Outcome::completed;
-  }
-  /// Whether the velocity of a slip falls to 0, perhaps with the horizon.
-  [[nodiscard]] static bool is_still(const motion::Crossing<Number>& crossing) {
-    return crossing.margin == 1 || (crossing.margin > 1 && crossing.motion.v == 0);
   }
   /// Ends a slip towards a side: the mass sticks, as the next phase finds, or moves back at once.
   template <class Observer>
@@ -318,21 +318,17 @@ class EventDriven : public SoftPhases<Method, N, E> {
       state.offset = 0, state.from_stop = state.within = ahead, state.pressed = true;
       return Outcome::completed;
     }
-    using std::min, std::sqrt;
-    const Number turns = min(Number(end - state.phase_turns), Number(sqrt(epsilon<Number>())));
-    this->show_stand(state, this->holding_at(state).stop, turns, false, origin, observer);
-    state.phase_turns += turns, state.released = false;
+    wait(state, this->holding_at(state).stop, end, origin, observer);
     return Outcome::completed;
   }
 
-  /// Moves a mass at rest past an instant at which the contact force is zero to rounding, so its sign decides nothing.
-  /// After sqrt(epsilon) of a period the force is clear of rounding; the mass moves by far less than an ulp.
+  /// Moves a mass at rest past an instant at which the force that holds it is zero to rounding, so its sign decides
+  /// nothing. After sqrt(epsilon) of a period it is clear of rounding; the mass moves by far less than an ulp.
   template <class Observer>
-  void pass_zero_force(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end,
-                       std::int64_t origin, Observer& observer) {
+  void wait(motion::State<Number>& state, Side side, const Number& end, std::int64_t origin, Observer& observer) {
     using std::min, std::sqrt;
     const Number turns = min(Number(end - state.phase_turns), Number(sqrt(epsilon<Number>())));
-    this->show_rest(state, stop, turns, false, origin, observer);
+    this->show_rest(state, side, turns, false, origin, observer);
     state.phase_turns += turns, state.released = false;
   }
 

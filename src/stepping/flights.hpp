@@ -91,6 +91,20 @@ class Flights : public IntegratorBase<N, E> {
             motion::Margin<Number>{Number(0), Number(0), one}};
   }
 
+  /// Whether the velocity of a slip falls to 0, perhaps with the horizon.
+  [[nodiscard]] static bool is_still(const motion::Crossing<Number>& crossing) {
+    return crossing.margin == 1 || (crossing.margin > 1 && crossing.motion.v == 0);
+  }
+  /// Of the gap to a rigid stop at the end of a slip. Without a spring, and with a force that is the same both ways, a
+  /// mass that a stop has released comes back to it exactly without speed: it then rests, whatever rounding says.
+  [[nodiscard]] Number rounding_of_gap(const motion::State<Number>& state, const motion::Stop<Number>& stop) const {
+    using std::abs;
+    if (is_soft(this->stops(), stop.side) || !this->finite(stop.position)) return Number(0);
+    const Number size = state.from_stop == stop.side ? Number(abs(state.offset))
+                                                     : Number(abs(stop.position - state.x) + abs(stop.position));
+    return 64 * epsilon<Number>() * size;
+  }
+
   /// One arc with these constants, up to the first margin that falls to 0.
   template <class Constants, std::size_t count, class Observer>
   motion::Crossing<Number> cross(const Constants& constants, motion::State<Number>& state,

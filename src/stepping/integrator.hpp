@@ -168,14 +168,8 @@ class IntegratorBase {
       observer.separate(motion::Separation{time(state, origin), side, static_cast<double>(state.v)});
   }
   template <class Observer>
-  void show_rest(const motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& turns, bool held,
-                 std::int64_t origin, Observer& observer) const {
-    observer.rest(motion::Rest{time(state, origin), static_cast<double>(turns * constants_.period), stop.side,
-                               static_cast<double>(stop.position), held});
-  }
-  template <class Observer>
-  void show_stand(const motion::State<Number>& state, Side side, const Number& turns, bool held, std::int64_t origin,
-                  Observer& observer) const {
+  void show_rest(const motion::State<Number>& state, Side side, const Number& turns, bool held, std::int64_t origin,
+                 Observer& observer) const {
     observer.rest(motion::Rest{time(state, origin), static_cast<double>(turns * constants_.period), side,
                                static_cast<double>(state.x), held});
   }

@@ -22,6 +22,9 @@ namespace clatter::stepping {
 ///
 /// A soft stop is a force, and acts in all of a step or in none: in those in the middle of which the mass, moving on at
 /// its present velocity, would be pushed by it (eq. 50).
+///
+/// Dry friction is an impulse at the end of a step, of at most mu over it, that takes the velocity towards 0 and not
+/// beyond: a mass sticks for whole steps, at its static level if it stood before.
 template <Effects E>
 class Moreau : public IntegratorBase<double, E> {
   using Base = IntegratorBase<double, E>;
@@ -87,9 +90,19 @@ class Moreau : public IntegratorBase<double, E> {
     const double at_end = force(constants, state.x + (length - part) * state.v, 0.0,
                                 sine);  // without the term in v there, which is implicit
     this->count_evaluations(1);
-    return {length, sine,
-            (state.v + (length - part) * at_begin + part * at_end) /
-                (1 + part * (2 * constants.h + constants.spring(part)))};
+    const double impulse = state.v + (length - part) * at_begin + part * at_end;
+    return {length, sine, rubbed(impulse, state.v, length) / (1 + part * (2 * constants.h + constants.spring(part)))};
+  }
+
+  /// Of the momentum at the end of a step what friction leaves.
+  [[nodiscard]] double rubbed(double momentum, double v, double length) const {
+    if constexpr (E.friction) {
+      if (!this->is_rough()) return momentum;
+      const double level = v == 0 ? this->slips().static_level : this->slips().kinetic;
+      if (std::abs(momentum) <= level * length) return 0.0;
+      return momentum - std::copysign(this->slips().kinetic * length, momentum);
+    }
+    return momentum;
   }
 
   /// The rigid stop that the mass is beyond in the middle of the step, at its present velocity.
@@ -131,7 +144,10 @@ class Moreau : public IntegratorBase<double, E> {
       if (state.pressed) {
         this->in_contact(state.within, [&](const auto& constants) {
           const Free pressed = free_step(constants, state, turns);
-          fly(constants, constants.stop.position, state, pressed, origin, observer);
+          if (!stand(state, pressed, turns, origin, observer)) {
+            turn(constants, state, pressed, origin, observer);
+            fly_in_contact(constants, state, pressed, origin, observer);
+          }
           sine_ = pressed.sine;
         });
         state.phase_turns = turns;
@@ -139,12 +155,17 @@ class Moreau : public IntegratorBase<double, E> {
       }
     }
     const Free free = free_step(this->constants(), state, turns);
+    if (stand(state, free, turns, origin, observer)) {
+      state.phase_turns = turns, sine_ = free.sine;
+      return true;
+    }
+    turn(this->constants(), state, free, origin, observer);
     const Side side = active(state, free.length);
     const auto stop = motion::stop_at<double>(this->stops(), side);
     const bool impulse = side != Side::none && stop.into(free.v) > stop.into(stop.law.after(state.v));
     bool affordable = true;
     if (!impulse) {
-      fly(this->constants(), 0.0, state, free, origin, observer);
+      fly(slipping(state.v, free.v), 0.0, state, free, origin, observer);
     } else if (state.v == 0) {
       rest(state, stop, turns, origin, observer);
     } else {
@@ -153,6 +174,48 @@ class Moreau : public IntegratorBase<double, E> {
     }
     state.phase_turns = turns, sine_ = free.sine;
     return affordable;
+  }
+
+  /// Whether friction holds the mass for a whole step, which is then reported.
+  template <class Observer>
+  [[nodiscard]] bool stand(const motion::State<double>& state, const Free& free, double turns, std::int64_t origin,
+                           Observer& observer) const {
+    if constexpr (E.friction) {
+      if (!this->is_rough() || state.v != 0 || free.v != 0) return false;
+      this->show_rest(state, this->holding_at(state).stop, turns - state.phase_turns, true, origin, observer);
+      return true;
+    }
+    return false;
+  }
+  /// Reports that the mass has turned back since its last slip.
+  template <class Constants, class Observer>
+  void turn(const Constants& constants, const motion::State<double>& state, const Free& free, std::int64_t origin,
+            Observer& observer) {
+    if constexpr (E.friction) {
+      const double way = free.v != 0 ? free.v : state.v;
+      if (!this->is_rough() || way == 0) return;
+      const double push = force(constants, state.x, 0.0, sine_), rubs = std::copysign(this->slips().kinetic, way);
+      const bool turns_back = std::exchange(slid_, way) * way < 0 && (push - rubs) * (push + rubs) > 0;
+      if (turns_back && state.v * way <= 0) this->show_reversal(state, push + rubs, push - rubs, origin, observer);
+    }
+  }
+  /// The constants of a free mass in a step between two velocities.
+  [[nodiscard]] const auto& slipping(double v, double v_end) const {
+    if constexpr (E.friction)
+      if (this->is_rough()) return this->slips().towards((v != 0 ? v : v_end) > 0 ? Side::upper : Side::lower);
+    return this->constants();
+  }
+  template <class Constants, class Observer>
+  void fly_in_contact(const Constants& constants, motion::State<double>& state, const Free& pressed,
+                      std::int64_t origin, Observer& observer) const {
+    const double position = constants.stop.position;
+    if constexpr (E.friction)
+      if (this->is_rough()) {
+        const Side ahead = (state.v != 0 ? state.v : pressed.v) > 0 ? Side::upper : Side::lower;
+        return this->slips().in_contact(
+            state.within, ahead, [&](const auto& slip) { fly(slip, position, state, pressed, origin, observer); });
+      }
+    fly(constants, position, state, pressed, origin, observer);
   }
 
   /// Moves on to the end of a step; arcs are given by distances from an anchor.
@@ -172,7 +235,7 @@ class Moreau : public IntegratorBase<double, E> {
   void rest(motion::State<double>& state, const motion::Stop<double>& stop, double turns, std::int64_t origin,
             Observer& observer) {
     state.x = stop.position;
-    this->show_rest(state, stop, turns - state.phase_turns, true, origin, observer);
+    this->show_rest(state, stop.side, turns - state.phase_turns, true, origin, observer);
   }
 
   /// Moves with the velocity before the impulse until it acts, and with the one after it from there.
@@ -190,7 +253,7 @@ class Moreau : public IntegratorBase<double, E> {
     this->show_impact(state, stop, before, origin, observer);
     if (after == 0) {
       state.x = stop.position;
-      this->show_rest(state, stop, (free.length - until) / this->period(), true, origin, observer);
+      this->show_rest(state, stop.side, (free.length - until) / this->period(), true, origin, observer);
     } else {
       drift(state, free.length - until, origin, observer);
     }
@@ -200,8 +263,8 @@ class Moreau : public IntegratorBase<double, E> {
   template <class Observer>
   void drift(motion::State<double>& state, double length, std::int64_t origin, Observer& observer) const {
     const double x = state.x + length * state.v;
-    observer.arc(arc(this->constants(), 0.0, state.phase_turns, length, cubic(length, {state.x, state.v}, {x, state.v}),
-                     cubic(length, {state.v, 0.0}, {state.v, 0.0})),
+    observer.arc(arc(slipping(state.v, state.v), 0.0, state.phase_turns, length,
+                     cubic(length, {state.x, state.v}, {x, state.v}), cubic(length, {state.v, 0.0}, {state.v, 0.0})),
                  this->time(state, origin), length);
     state.x = x, state.phase_turns += length / this->period();
   }
@@ -215,6 +278,7 @@ class Moreau : public IntegratorBase<double, E> {
 
   double step_, theta_;
   double sine_ = 0.0;  ///< of the force, at the state
+  double slid_ = 0.0;  ///< velocity of the last slip
 };
 
 }  // namespace clatter::stepping

@@ -6,11 +6,12 @@ the limits of differences of runs. Scenes are random; CLATTER_SENSITIVITY is COU
 
 import math
 import os
+import random
 import tempfile
 import unittest
 
 import numpy as np
-from random_scenes import compliant_scenes, pressing_scenes, random_scenes
+from random_scenes import compliant_scenes, pressing_scenes, random_scenes, rubbed
 from scene_runs import STEADY, Program, keys_of, machine_keys
 
 CLATTER = os.environ["CLATTER"]
@@ -20,14 +21,15 @@ COUNT, SEED = int(COUNT), int(SEED or 461)
 STARTS = {"x0", "v0", "phase"}
 SETTLE = 'mode = "steady"\nmax_periods = 600\n'
 PERIODIC = 0  # the status
+SIDES = (-2, -1, 1, 2)
 
 # powers of length, time and mass; all that isn't here is a number
-OF_SCENE = {"h": (0, -1), "nu": (0, -1), "f": (1, -2), "load": (1, -2), "stiffness": (0, -2)}
+OF_SCENE = {"h": (0, -1), "nu": (0, -1), "stiffness": (0, -2)}
+OF_SCENE |= dict.fromkeys(("f", "load", "friction", "friction_static"), (1, -2))
 OF_MACHINE = {
     "damping": (0, -1, 1),
     "frequency": (0, -1, 0),
-    "force": (1, -2, 1),
-    "load": (1, -2, 1),
+    **dict.fromkeys(("force", "load", "friction", "friction_static"), (1, -2, 1)),
     "stiffness": (0, -2, 1),
     "mass": (0, 0, 1),
 }
@@ -62,6 +64,8 @@ class Family:
         self.keys = [key for key in self.values[0] if key not in STARTS]
         if section.startswith("[machine]"):
             self.keys.append("mass")
+        if "friction" in self.keys:
+            observe += "word_sticks = true\n"
         wanted = f'{STEADY}{observe}sensitivity = "{", ".join(self.keys)}"\n'
         self.runs = program.run(scenes, time, wanted, section=section, keys_of=of_section)
 
@@ -77,8 +81,10 @@ def families(scenes, of_section=keys_of):
 
 
 def drawn(count, seed):
-    """Forced scenes of any effects, some that rest, some between soft stops."""
+    """Forced scenes of any effects, some that rest, some between soft stops; a third with dry friction."""
+    draw = random.Random(f"friction {seed}")
     scenes = random_scenes(count, seed) + pressing_scenes(count // 6, seed) + compliant_scenes(count // 6, seed)
+    scenes = [rubbed(draw, scene) if draw.random() < 0.33 else scene for scene in scenes]
     return [scene for scene in scenes if not scene.is_unforced() and abs(scene.f) >= 0.02]
 
 
@@ -142,40 +148,74 @@ class OfRandomScenes(unittest.TestCase):
 
     def test_they_are_the_limits_of_differences(self):
         """By one key of each scene, from runs that begin on the motion itself; to four orders in the step."""
-        sharp = 0
+        sharp = rough = 0
         for n, scenes in enumerate(families(drawn(COUNT, SEED + 2))):
             frame = 'frame = "absolute"\n' if scenes[0].base_amplitude or scenes[0].stop_amplitude else ""
             family = Family(self.program, scenes, observe=frame)
             key = family.keys[n % len(family.keys)]
             found = [i for i in range(len(scenes)) if family.runs["status"][i] == PERIODIC]
             found = [i for i in found if not math.isnan(family.runs["period"][i])]
-            if not found:
-                continue
             starts = [started(scenes[i], family.runs["x"][i, 0], family.runs["v"][i, 0], frame) for i in found]
             steps = [1e-4 * max(0.05, abs(getattr(scene, key))) for scene in starts]
-            sides = {}
-            for side in (-2, -1, 1, 2):
-                moved = [within_stops(s.changed(**{key: getattr(s, key) + side * d})) for s, d in zip(starts, steps)]
-                if any(not permitted(scene) for scene in moved):
-                    break
-                sides[side] = self.program.run(
-                    moved, SETTLE, STEADY + frame, keys_of=lambda s: keys_of_kind(s, starts[0])
-                )
-            if len(sides) < 4:
+            moved = [[moved_by(s, key, side * d) for side in SIDES] for s, d in zip(starts, steps)]
+            kept = [j for j in range(len(found)) if all(map(permitted, moved[j]))]
+            if not kept:
                 continue
-            for j, i in enumerate(found):
-                sharp += self.compare_differences(family.runs, i, key, sides, j, steps[j], scenes[i])
+            observe = STEADY + frame + ("word_sticks = true\n" if scenes[0].friction else "")
+            sides = {
+                side: self.program.run(
+                    [moved[j][n] for j in kept], SETTLE, observe, keys_of=lambda s: keys_of_kind(s, starts[0])
+                )
+                for n, side in enumerate(SIDES)
+            }
+            for n, j in enumerate(kept):
+                i = found[j]
+                by_it = self.compare_differences(family.runs, i, key, sides, n, steps[j], scenes[i])
+                sharp += by_it
+                rough += by_it if scenes[i].friction else 0
         self.assertEqual(self.told(), "")
         self.assertGreater(sharp, COUNT // 2)
+        self.assertGreater(rough, COUNT // 8)
+
+    def test_friction_that_begins(self):
+        """Derivatives by the friction at 0, by differences to one side of it."""
+        scenes = [scene for scene in drawn(COUNT, SEED + 3) if not scene.stop_amplitude and not scene.friction]
+        wanted = STEADY + 'sensitivity = "friction"\n'
+        runs, sharp = self.program.run(scenes, SETTLE, wanted), 0
+        found = [i for i in range(len(scenes)) if runs["status"][i] == PERIODIC and not math.isnan(runs["period"][i])]
+        starts = [started(scenes[i], runs["x"][i, 0], runs["v"][i, 0], "") for i in found]
+        steps = [1e-5 * max(0.05, abs(scene.f)) for scene in starts]
+        some = [
+            self.program.run([s.changed(friction=n * d) for s, d in zip(starts, steps)], SETTLE, STEADY)
+            for n in (1, 2, 4)
+        ]
+        for j, i in enumerate(found):
+            sharp += self.compare_begun(runs, i, some, j, steps[j], scenes[i])
+        self.assertEqual(self.told(), "")
+        self.assertGreater(sharp, COUNT // 4)
+
+    def compare_begun(self, runs, i, some, j, step, scene):
+        """How many derivatives the differences to one side confirm."""
+        contraction = 1 - abs(complex(runs["multiplier_re"][i, 0], runs["multiplier_im"][i, 0]))
+        if not contraction > 1e-2 or not all(same_motion(run, j, runs, i) for run in some):
+            return 0
+        confirmed = 0
+        for result in RESULTS:
+            zero, *at = [np.atleast_1d(run[result][k]) for run, k in [(runs, i)] + [(run, j) for run in some]]
+            told = np.atleast_1d(derivative(runs, result, "friction")[i])
+            slopes = [(value - zero) / (n * step) for n, value in zip((1, 2, 4), at)]
+            near, far = 2 * slopes[0] - slopes[1], 2 * slopes[1] - slopes[2]
+            for own, one, other, size in zip(told, near, far, np.abs(zero)):
+                rounding = 1e-10 * (size + 1e-3) / contraction / step
+                if math.isnan(one) or math.isnan(other) or abs(one - other) > 1e-2 * abs(one) + rounding:
+                    continue
+                self.check(abs(own - one), abs(one - other) + rounding, f"{result} by friction at 0, {scene}")
+                confirmed += abs(one - other) + rounding < 1e-3 * abs(own)
+        return confirmed
 
     def compare_differences(self, runs, i, key, sides, j, step, scene):
         """How many derivatives the differences confirm to 1e-5 or better."""
-        same = all(
-            side["status"][j] == PERIODIC
-            and side["impact_word"][j] == runs["impact_word"][i]
-            and abs(side["period_ratio"][j] - runs["period_ratio"][i]) < 1e-9
-            for side in sides.values()
-        )
+        same = all(same_motion(side, j, runs, i) for side in sides.values())
         contraction = 1 - abs(complex(runs["multiplier_re"][i, 0], runs["multiplier_im"][i, 0]))
         if not same or not contraction > 1e-3:
             return 0
@@ -195,11 +235,24 @@ class OfRandomScenes(unittest.TestCase):
         return sharp
 
 
+def same_motion(some, j, others, i):
+    return (
+        some["status"][j] == PERIODIC
+        and some["impact_word"][j] == others["impact_word"][i]
+        and abs(some["period_ratio"][j] - others["period_ratio"][i]) < 1e-9
+    )
+
+
+def moved_by(scene, key, step):
+    return within_stops(scene.changed(**{key: getattr(scene, key) + step}))
+
+
 def permitted(scene):
     sides = ("_lower", "_upper")
     numbers = [getattr(scene, name + side) for name in ("stop_damping",) for side in sides] + [scene.h]
     R = [getattr(scene, "R" + side) for side in sides]
-    return all(number >= 0 for number in numbers) and all(0 <= number <= 1 for number in R)
+    below = 0 < scene.friction_static < scene.friction
+    return all(number >= 0 for number in numbers) and all(0 <= number <= 1 for number in R) and not below
 
 
 def started(scene, x, v, frame):

@@ -29,6 +29,56 @@ def symmetric_motion(h, f, nu, R, xs):
     return (beta * xs + cmath.sqrt(amplitude * amplitude * square - (gamma * xs) ** 2)) / square
 
 
+def slipping_amplitude(f, nu, friction):
+    """Of undamped motion with k = 1 under dry friction, without stops and without a stick (Den Hartog 1931)."""
+    V, turn = f / (1 - nu * nu), math.pi / nu
+    U = cmath.sin(turn) / (nu * (1 + cmath.cos(turn)))
+    return cmath.sqrt(V * V - (friction * U) ** 2)
+
+
+def newton(of, *unknowns):
+    """The zero of two functions of two complex unknowns near a guess."""
+    x, y = unknowns
+    for _ in range(12):
+        step = 1e-7
+        (p, q), (px, qx), (py, qy) = of(x, y), of(x + step, y), of(x, y + step)
+        px, qx, py, qy = (px - p) / step, (qx - q) / step, (py - p) / step, (qy - q) / step
+        determinant = px * qy - py * qx
+        x, y = x - (p * qy - q * py) / determinant, y - (q * px - p * qx) / determinant
+    return x, y
+
+
+def sticking_amplitude(f, nu, stiffness, friction, friction_static):
+    """Of undamped motion without stops that sticks once on each side: let go at -X, it slips up to X."""
+
+    def missed(X, length):
+        begin = cmath.asin((friction_static - stiffness * X) / f)
+        root, response = cmath.sqrt(stiffness), f / (stiffness - nu * nu)
+        free_x, free_v = friction / stiffness - X - response * cmath.sin(begin), -response * nu * cmath.cos(begin)
+        cosine, sine, end = cmath.cos(root * length), cmath.sin(root * length), begin + nu * length
+        x = response * cmath.sin(end) + free_x * cosine + free_v * sine / root - friction / stiffness
+        return x - X, response * nu * cmath.cos(end) - free_x * root * sine + free_v * cosine
+
+    return newton(missed, 1.1, 4.85)[0]
+
+
+def thrown_speed(f, nu, friction, friction_static, gap):
+    """Of a block between walls that catch it, at which it strikes one after the other has let it go."""
+
+    def missed(end, speed):
+        begin = cmath.asin(friction_static / f)
+        time = (end - begin) / nu
+        v = f / nu * (cmath.cos(begin) - cmath.cos(end)) - friction * time
+        x = (
+            f / nu * cmath.cos(begin) * time
+            - f / nu**2 * (cmath.sin(end) - cmath.sin(begin))
+            - friction * time**2 / 2
+        )
+        return x - gap, v - speed
+
+    return newton(missed, 2.0, 0.6)[1]
+
+
 def by_each(function, values):
     """The derivatives of a function by its arguments, by complex steps: exact to rounding."""
     step = 1e-200
@@ -78,6 +128,71 @@ class ClosedForms(RunTest):
             self.assertEqual(file["d_x_max_d_stop_upper"][()], 1.0)
             self.assertEqual(file["d_x_max_d_load"][()], 0.0)
             self.assertEqual(file["d_impact_power_d_load"][()], 0.0)
+
+    def test_slips_without_a_stick(self):
+        """A static level that no turn comes near changes nothing, nor does the load change more than the middle."""
+        for n, (nu, friction) in enumerate([(0.8, 0.3), (1.3, 0.2)]):
+            values = {"f": 1.0, "nu": nu, "friction": friction}
+            amplitude = slipping_amplitude(**values).real
+            also = {"load": 0.1, "friction_static": friction + 0.01, "x0": 0.1 + amplitude}
+            with self.run_at({**values, **also}, f"slips{n}", time={"max_periods": 3000}) as file:
+                np.testing.assert_allclose(file["x_max"], 0.1 + amplitude, rtol=1e-11)
+                for key, slope in by_each(slipping_amplitude, values).items():
+                    np.testing.assert_allclose(file["d_x_max_d_" + key], slope, rtol=1e-9)
+                    np.testing.assert_allclose(file["d_x_min_d_" + key], -slope, rtol=1e-9)
+                np.testing.assert_allclose([file["d_x_max_d_load"], file["d_x_min_d_load"]], 1.0, rtol=1e-10)
+                self.assertEqual(file["d_x_max_d_friction_static"][()], 0.0)
+
+    def test_friction_that_begins(self):
+        """A square wave -sgn x' acts on the damped oscillator: half a period of its response begins at -y and ends at
+        y, and at 1 above it is free motion."""
+        for n, (h, nu) in enumerate([(0.1, 0.7), (0.02, 1.4), (0.6, 1.0)]):
+            root, turn = math.sqrt(1 - h * h), math.pi / nu
+            decay, sine = math.exp(-h * turn), math.sin(root * turn) / root
+            a, b, d = (decay * (math.cos(root * turn) + h * sine), decay * sine, decay * math.cos(root * turn))
+            flight = np.array([[a, b], [-b, d - h * b]])
+            slope = 1 - np.linalg.solve(flight + np.eye(2), [2.0, 0.0])[0]
+            values = {"h": h, "f": 1.0, "nu": nu, "friction": 0.0}
+            with self.run_at(values, f"begins{n}", sweep={"xs": [20.0]}) as file:
+                np.testing.assert_allclose(file["d_x_max_d_friction"][0], slope, rtol=1e-9)
+                np.testing.assert_allclose(file["d_x_min_d_friction"][0], -slope, rtol=1e-9)
+
+    def test_stuck_for_good_the_mass_stays(self):
+        values = {"f": 0.3, "nu": 0.9, "friction": 0.5, "x0": 0.1, "h": 0.1}
+        with self.run_at(values, "stuck") as file:
+            self.assertEqual(file["status"][()], PERIODIC)
+            self.assertEqual([file["d_x_max_d_friction"][()], file["d_x_max_d_f"][()]], [0.0, 0.0])
+
+    def test_slips_that_end_in_sticks(self):
+        for n, (nu, k, kinetic, static) in enumerate([(0.5, 1.0, 0.5, 0.55), (0.4, 1.0, 0.6, 0.7)]):
+            values = {"f": 1.0, "nu": nu, "stiffness": k, "friction": kinetic, "friction_static": static}
+            amplitude = sticking_amplitude(**values).real
+            with self.run_at(values, f"sticks{n}") as file:
+                np.testing.assert_allclose([file["x_max"], -file["x_min"][()]], amplitude, rtol=1e-12)
+                for key, slope in by_each(sticking_amplitude, values).items():
+                    np.testing.assert_allclose(file["d_x_max_d_" + key], slope, rtol=1e-10)
+                    np.testing.assert_allclose(file["d_x_min_d_" + key], -slope, rtol=1e-10)
+
+    def test_friction_holds_on_stops_and_follows_its_static_level(self):
+        """Without that key it is the friction, and changes with it."""
+        values = {"f": 1.0, "nu": 1.0, "friction": 0.2, "friction_static": 0.3, "gap": 0.5}
+        for n, static in enumerate([0.3, 0.2]):
+            values["friction_static"] = static
+            slopes, speed = by_each(thrown_speed, values), thrown_speed(**values).real
+            scene = {**values, "stiffness": 0.0, "R": 0.0, "stop_lower": -0.2, "stop_upper": 0.3, "x0": -0.2}
+            del scene["gap"]
+            if static == 0.2:
+                del scene["friction_static"]
+                slopes["friction"] += slopes.pop("friction_static")
+            slopes["stop_upper"] = slopes.pop("gap")
+            slopes["stop_lower"] = -slopes["stop_upper"]
+            with self.run_at(scene, f"thrown{n}") as file:
+                np.testing.assert_allclose(file["impact_speed"], speed, rtol=1e-12)
+                for key, slope in slopes.items():
+                    np.testing.assert_allclose(file["d_impact_speed_d_" + key], [slope, slope], rtol=1e-10)
+                    power = speed * slope * values["nu"] / math.pi
+                    power += speed**2 / (2 * math.pi) if key == "nu" else 0.0
+                    np.testing.assert_allclose(file["d_impact_power_d_" + key], power, rtol=1e-10)
 
     def test_ways_to_give_the_damping_are_related(self):
         """c = 2 zeta (k m)^(1/2) = (k m)^(1/2)/Q, and a mass changes the damping ratio of a damper, and no other."""

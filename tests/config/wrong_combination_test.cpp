@@ -132,6 +132,26 @@ TEST(Together, the_start_is_between_stops_in_order) {
   expect_all("a.ini", table);
 }
 
+TEST(Together, friction_is_one_force_at_rest_and_in_motion_against_what_carries_the_mass) {
+  const std::string range = "out of range; expected >= 0";
+  const std::vector<Wrong> table{
+      {"[scene]\nxs = 1\nfriction = -0.1\n", "3:12", "friction = -0.1 is " + range},
+      {"[scene]\nxs = 1\nfriction_static = -0.1\n", "3:19", "friction_static = -0.1 is " + range},
+      {"[machine]\nmass = 1\ngap = 1\nfriction = \"-2 N\"\n", "4:12", range},
+      {"[scene]\nxs = 1\nfriction = 0.3\nfriction_static = 0.2\n", "3:12",
+       "friction = 0.3 and friction_static = 0.2; expected friction <= friction_static"},
+      {"[scene]\nxs = 1\nfriction_static = 0.2\n[sweep]\nfriction = [0.1, 0.3]\n", "5:18", "friction = 0.3 and"},
+      {"[scene]\nxs = 1\n[sweep]\nlinked = \"friction, friction_static\"\nfriction = [0.1, 0.3]\n"
+       "friction_static = [0.4, 0.2]\n",
+       "5:18", "friction = 0.3 and friction_static = 0.2"},
+      {"[scene]\nxs = 1\nfriction = 0.3\nstop_amplitude = 0.1\n", "3:12", "conflicts with 'stop_amplitude'"},
+      {"[scene]\nxs = 1\nstop_amplitude = 0.1\n[sweep]\nfriction = [0, 0.1]\n", "5:16", "give base_amplitude"},
+      {"[scene]\nxs = 1\nfriction = 0.3\nstart_period = 3\n", "3:12",
+       "conflicts with 'start_period', which is that of motion without loss; give x0 and v0 instead"},
+  };
+  expect_all("a.toml", table);
+}
+
 TEST(Together, start_period_belongs_to_free_motion_between_symmetric_stops) {
   const std::string start = "[scene]\nxs = 1\nstart_period = 3\n";
   const std::vector<Wrong> table{
@@ -177,6 +197,10 @@ TEST(Together, sensitivity_names_keys_of_steady_motion) {
       {asked(machine, "f"), "5:15", "no key of [machine], which describes this scene; take 'force'"},
       {asked(scene, "xs"), "5:15", "the stops are given one by one; name 'stop_lower' or 'stop_upper'"},
       {asked(machine, "quality"), "5:15", "the damping isn't given by it; name 'damping' or 'damping_ratio'"},
+      {asked(scene, "friction_static"), "5:15",
+       "friction_static', which isn't given, so that it follows 'friction'; name that, or give it"},
+      {asked(scene + "stop_amplitude = 1\n", "friction"), "6:15",
+       "sensitivity names 'friction', which conflicts with 'stop_amplitude'; leave it out"},
       {asked(scene, "R") + "[time]\nmode = \"transient\"\nduration = 9\n", "5:15", "sensitivity of a transient"},
       {asked(scene, "R") + "[integrator]\nmethod = \"dopri5\"\n", "5:15",
        "sensitivity by method = 'dopri5'; only 'exact' computes it"},

@@ -20,7 +20,7 @@ SHARED = {  # the label of results in one panel; alone each has its own
     frozenset({"x_min", "x_max"}): r"displacement $x$",
     frozenset({"v_min", "v_max"}): "velocity $x$\N{PRIME}",
     frozenset({"v_before", "v_after"}): "velocity at impact $x$\N{PRIME}",
-    frozenset({"work_in", "loss_damping"}): "energy in the observed time",
+    frozenset({"work_in", "loss_damping", "loss_friction"}): "energy in the observed time",
 }
 
 
@@ -150,7 +150,7 @@ def curves(members, group, axes):
     if first == "symmetric":
         axes.set_yticks([0, 1], labels=["no", "yes"])
         axes.set_ylim(-0.15, 1.15)
-    if first in ("rest_fraction", "contact_fraction"):
+    if first in ("rest_fraction", "stick_fraction", "contact_fraction"):
         axes.set_ylim(-0.02, max(1.02 * axes.get_ylim()[1], 0.1))
     if output.follow == name and not several:
         rises = (output.values(name)[-1] > output.values(name)[0]) != output.goes_down

@@ -39,7 +39,7 @@ TOGETHER = (
     ("x_min", "x_max"),
     ("v_min", "v_max"),
     ("v_before", "v_after"),
-    ("work_in", "loss_damping"),
+    ("work_in", "loss_damping", "loss_friction"),
 )  # results that share a panel
 RECORDS = ("tau", "x", "v")
 TEXTS = ("impact_word", "regime")
@@ -61,6 +61,7 @@ ORDER = (
     "v_after",
     "impact_speed",
     "rest_fraction",
+    "stick_fraction",
     "settling_periods",
     "x_amplitude",
     "x_phase",
@@ -71,6 +72,7 @@ ORDER = (
     "lyapunov",
     "work_in",
     "loss_damping",
+    "loss_friction",
     "loss_impact",
     "impulse",
     "impact_power",

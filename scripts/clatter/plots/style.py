@@ -173,7 +173,7 @@ def gathered(notes):
 
 def constants(output, title, others=()):
     """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
-    nothing = ("phase", "load", "damping", "stop_amplitude", "base_amplitude", "stop_phase")
+    nothing = ("phase", "load", "damping", "friction", "stop_amplitude", "base_amplitude", "stop_phase")
     stiffnesses = ("stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
     hidden = {
         **dict.fromkeys(nothing, 0.0),
