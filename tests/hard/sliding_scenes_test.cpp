@@ -68,6 +68,7 @@ class Reference {
     compare(slide(any.scene, any.duration, most_events, epsilon<double>()));
     for (std::size_t i = 0; i < growth.size(); ++i)
       growth[i] = std::max({growth[i], of_stopping(events[i]), i == 0 ? 0 : growth[i - 1]});
+    if (!growth.empty()) end_growth = std::max(end_growth, growth.back());
   }
 
   /// The most by which the program may be off in an event.
