@@ -133,7 +133,7 @@ def random_scenes(count, seed):
 
 
 def rubbed(draw, scene):
-    """The scene with dry friction, from next to nothing to nearly as much as holds the mass; not between stops that move."""
+    """The scene with dry friction, up to nearly as much as holds the mass; not between stops that move."""
     if scene.stop_amplitude:
         return scene
     force = max(abs(scene.f), abs(scene.base_amplitude * scene.stiffness), abs(scene.load) / 10) or 1.0
