@@ -7,6 +7,7 @@
 
 #include "branches/resting/resting_branch.hpp"
 #include "branches/start.hpp"
+#include "branches/walk/halt_change.hpp"
 #include "branches/walk/special_points.hpp"
 #include "branches/walk/touch.hpp"
 
@@ -263,8 +264,10 @@ class Follower {
   /// The branch ends within a step, at a graze.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step,
                     const std::optional<std::size_t>& from) {
-    const std::optional<Touch> touch = touch_within(equations, walk, step);
-    if (!touch) return record_.fail(record_.point(equations, walk.here()), no_step);
+    const std::optional<Narrowed> between = narrowed(equations, walk, step);
+    if (!between) return record_.fail(record_.point(equations, walk.here()), no_step);
+    if (const auto change = halt_change(equations, *between)) return end_in_halt(equations, walk, *between, *change, from);
+    const Touch touch_found = touch_of(equations, *between), *const touch = &touch_found;
     if (special_between(equations, walk, touch->last_good.arclength - walk.here().arclength, from))
       return record_.end(record_.point(equations, touch->last_good), "born");
     if (touch->appears && equations.shape().size() > 0 && ends_in_rest(equations, *touch, step)) return;
@@ -273,10 +276,11 @@ class Follower {
     if (exact && exact->joins) return end_on(*exact, equations.shape());
     BranchPoint last = record_.point(equations, touch->last_good);
     if (!exact) return record_.add(last), record_.fail(last, no_graze);
-    const Orbit with = exact->orbit, without = with.without(touch->impact);
+    const Orbit with = exact->orbit, without = touch->halts ? halting_at_stop(exact->scene, with, touch->impact)
+                                                            : with.without(touch->impact);
     last.scene = exact->scene, last.orbit = touch->appears ? without : with;
     record_.add(last);
-    if (resting().waits_beyond(last, with.impacts[touch->impact].side, generation_))
+    if (!touch->halts && resting().waits_beyond(last, with.impacts[touch->impact].side, generation_))
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;
@@ -290,6 +294,25 @@ class Follower {
       wait_with(at.scene, with, touch->impact, special, heading);
     else
       wait_without(at.scene, without, special, heading);
+  }
+
+  /// The branch ends within a step, as friction begins to hold the mass somewhere, or no longer does.
+  void end_in_halt(const OrbitEquations& equations, const Walk& walk, const Narrowed& between, const HaltChange& change,
+                   const std::optional<std::size_t>& from) {
+    if (special_between(equations, walk, between.last_good.arclength - walk.here().arclength, from))
+      return record_.end(record_.point(equations, between.last_good), "born");
+    BranchPoint last = record_.point(equations, between.last_good);
+    const double step = between.beyond.arclength - walk.here().arclength;
+    const auto exact = exact_change(any_equations(), equations.scene_at(between.beyond.at), change, 10 * step,
+                                    settings_.tolerance);
+    if (!exact) return record_.add(last), record_.fail(last, no_halt_change);
+    last.scene = exact->scene;
+    if (change.before) last.orbit = formed(exact->orbit, exact->impact, *change.before);
+    record_.add(last);
+    const auto [special, is_new] = record_.note(change.kind, last, change.condition);
+    record_.end(last, std::string(name_of(change.kind)));
+    if (!is_new || !change.beyond) return no_longer_waits(waiting_, special, last.orbit);
+    waiting_.push_back({exact->scene, formed(exact->orbit, exact->impact, *change.beyond), {}, special, generation_});
   }
 
   /// The branch ends on a motion that repeats sooner, or is symmetric, as that grazes soft stops, whose dampers change
