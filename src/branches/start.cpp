@@ -175,8 +175,9 @@ void require_levels_of_friction(const FollowedScene& scene, Parameter parameter,
                      key_in_section(scene, parameter) + " a value above 0, within " + interval);
   const Friction& given = scene.given.friction;
   if (parameter == Parameter("friction") && given.static_level != 0 && range[1] > given.static_level)
-    throw StartError(interval + " reaches friction_static; end it there, or give no friction_static: it is then equal "
-                                "to friction");
+    throw StartError(interval +
+                     " reaches friction_static; end it there, or give no friction_static: it is then equal "
+                     "to friction");
   if (parameter == Parameter("friction_static") && range[0] < given.kinetic)
     throw StartError(interval + " reaches below friction; begin it there");
 }

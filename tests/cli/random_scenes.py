@@ -31,6 +31,8 @@ class Scene:
     stop_damping_lower: float = 0.0
     stop_damping_upper: float = 0.0
     stop_phase: float = 0.0
+    friction: float = 0.0
+    friction_static: float = 0.0
 
     def changed(self, **values):
         return Scene(**{**self.__dict__, **values})
@@ -48,6 +50,7 @@ class Scene:
 
     def scaled(self, size):
         names = ("f", "load", "x0", "v0", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude")
+        names += ("friction", "friction_static")
         return self.changed(**{name: size * getattr(self, name) for name in names})
 
     def shifted(self, place):
@@ -58,6 +61,7 @@ class Scene:
         """The same motion in units of time that are shorter by so much."""
         changes = {name: getattr(self, name) / faster for name in ("h", "nu", "v0")}
         squares = ("f", "load", "stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
+        squares += ("friction", "friction_static")
         return self.changed(**changes, **{name: getattr(self, name) / faster**2 for name in squares})
 
     def turned(self):
@@ -187,6 +191,27 @@ def followed_scenes(count, seed):
         scene = drawn(draw)
         if abs(scene.f) > 1e-2 and not scene.base_amplitude and not scene.stop_amplitude and scene.h > 1e-3:
             scenes.append(scene)
+    return scenes
+
+
+def slipping_scenes(count, seed):
+    """Dry friction between rigid stops that the mass reaches or not; its static level is the other one, or above it."""
+    draw = random.Random(seed)
+    scenes = []
+    for _ in range(count):
+        scene = Scene(h=draw.choice([0.0, logarithmic(draw, 1e-3, 0.3)]), nu=logarithmic(draw, 0.3, 3))
+        scene.f, scene.stiffness = draw.choice([-1, 1]), draw.choice([1.0, 1.0, logarithmic(draw, 0.2, 3)])
+        scene.load, gap = draw.choice([0.0, 0.0, draw.uniform(-0.3, 0.3)]), logarithmic(draw, 0.3, 6)
+        middle = draw.choice([0.0, scene.load / scene.stiffness])
+        scene.stop_lower, scene.stop_upper = middle - gap / 2, middle + gap / 2
+        scene.R_lower = scene.R_upper = draw.uniform(0.3, 0.95)
+        if draw.random() < 0.3:
+            scene.stop_lower, scene.R_lower = -INF, 1.0
+        scene.x0, scene.v0 = draw.uniform(middle - gap / 2, middle + gap / 2), draw.uniform(-1, 1)
+        scene.friction = logarithmic(draw, 0.02, 0.6)
+        if draw.random() < 0.2:
+            scene.friction_static = scene.friction * draw.uniform(1, 1.5)
+        scenes.append(scene)
     return scenes
 
 

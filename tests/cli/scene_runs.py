@@ -21,7 +21,11 @@ def keys_of(scene):
         if math.isfinite(getattr(scene, "stop" + side)):
             is_soft = math.isfinite(getattr(scene, "stop_stiffness" + side))
             keys += ["stop" + side] + (["stop_stiffness" + side, "stop_damping" + side] if is_soft else ["R" + side])
-    keys += [key for key in ("stop_amplitude", "base_amplitude", "stop_phase") if getattr(scene, key) != 0]
+    keys += [
+        key
+        for key in ("stop_amplitude", "base_amplitude", "stop_phase", "friction", "friction_static")
+        if getattr(scene, key) != 0
+    ]
     return {key: getattr(scene, key) for key in keys}
 
 
@@ -33,7 +37,7 @@ def machine_keys(mass):
         values["damping"] = 2 * mass * values.pop("h")
         for key, of_scene in (("force", "f"), ("stiffness", "stiffness"), ("load", "load")):
             values[key] = mass * values.pop(of_scene)
-        for key in ("stop_stiffness_lower", "stop_stiffness_upper"):
+        for key in ("stop_stiffness_lower", "stop_stiffness_upper", "friction", "friction_static"):
             if key in values:
                 values[key] *= mass
         values["frequency"] = values.pop("nu") / (2 * math.pi)

@@ -99,8 +99,8 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       add_duration(orbit, condition, row, out);
     else if (condition.kind == Condition::Kind::release)
       add_release(scene, orbit.impacts[condition.impact], 2 * condition.impact, row, out);
-    else if (condition.kind == Condition::Kind::level || condition.kind == Condition::Kind::tangency)
-      add_level(scene, orbit.impacts[condition.impact], condition, row, out);
+    else if (condition.is_of_halt())
+      add_halt(scene, orbit.impacts[condition.impact], condition, row, out);
     else
       add_multiplier(scene, orbit, condition, row, out);
     ++row;
@@ -137,22 +137,25 @@ void OrbitEquations::add_duration(const Orbit& orbit, const Condition& condition
   out.slope(row, 2 * next) += 1;
 }
 
-void OrbitEquations::add_level(const FollowedScene& scene, const OrbitImpact& halt, const Condition& condition,
-                               std::size_t row, Linearised& out) const {
+void OrbitEquations::add_halt(const FollowedScene& scene, const OrbitImpact& halt, const Condition& condition,
+                              std::size_t row, Linearised& out) const {
   const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
-  const auto [f, lead] = p.force();
-  const double sign = sign_of(condition.side);
-  const First still = p.oscillator.load - p.oscillator.stiffness * (p.middle() + First(halt.place, by_before)),
-              shaken = condition.kind == Condition::Kind::tangency
-                           ? abs(f)
-                           : sign * f * sin(First(halt.phase, by_begin) + lead);
-  const First left = p.friction.static_level - sign * still - shaken;
+  const First x = p.middle() + First(halt.place, by_before);
+  const auto left_to_level = [&] {
+    const auto [f, lead] = p.force();
+    const double sign = sign_of(condition.side);
+    const First level = condition.kind == Condition::Kind::kinetic ? p.friction.kinetic : p.friction.static_level,
+                left = level - sign * (p.oscillator.load - p.oscillator.stiffness * x);
+    if (condition.kind == Condition::Kind::tangency) return left - abs(f);
+    return left - sign * f * sin(First(halt.phase, by_begin) + lead);
+  };
+  const First zero = condition.kind == Condition::Kind::on_stop ? x - p.position(condition.side) : left_to_level();
   const std::size_t unknown = 2 * condition.impact;
-  out.residual[row] = left.value;
-  out.slope(row, unknown) = left.slope[by_begin];
-  out.slope(row, unknown + 1) = left.slope[by_before] * speed_unit_;
+  out.residual[row] = zero.value;
+  out.slope(row, unknown) = zero.slope[by_begin];
+  out.slope(row, unknown + 1) = zero.slope[by_before] * speed_unit_;
   for (std::size_t k = 0; k < axes_.size(); ++k)
-    out.slope(row, 2 * shape_.size() + k) = left.slope[by_first_axis + k] * axes_[k].unit;
+    out.slope(row, 2 * shape_.size() + k) = zero.slope[by_first_axis + k] * axes_[k].unit;
 }
 
 void OrbitEquations::add_release(const FollowedScene& scene, const OrbitImpact& impact, std::size_t phase,

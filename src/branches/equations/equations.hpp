@@ -20,7 +20,9 @@ struct Condition {
     force,       ///< a soft stop's force, zero at event number `impact`, doesn't change there
     duration,    ///< the flight from event number `impact` on lasts `duration`
     level,       ///< at event number `impact`, a halt, the other forces are at the static level of friction
+    kinetic,     ///< the same with the kinetic level
     tangency,    ///< at the place of that halt they only just come to that level
+    on_stop,     ///< the place of that halt is that of a stop
     release      ///< the force on the mass is zero at impact number `impact`, after which it may come to rest if R = 0
   };
   Kind kind = Kind::multiplier;
@@ -28,7 +30,11 @@ struct Condition {
   std::size_t impact = 0;
   std::optional<std::size_t> without{};  ///< the multiplier is that of the orbit without this impact, which grazes
   double duration = 0.0;                 ///< of the forcing phase, rad
-  Side side = Side::none;                ///< to which the other forces push the halting mass
+  Side side = Side::none;                ///< to which the other forces push the halting mass; that stop
+
+  [[nodiscard]] bool is_of_halt() const {
+    return kind == Kind::level || kind == Kind::kinetic || kind == Kind::tangency || kind == Kind::on_stop;
+  }
 };
 
 /// The equations of periodic motion with given impacts (multiple shooting over arcs): every flight ends on the stop of
@@ -75,8 +81,8 @@ class OrbitEquations {
  private:
   void add_release(const FollowedScene& scene, const OrbitImpact& impact, std::size_t phase, std::size_t row,
                    Linearised& out) const;
-  void add_level(const FollowedScene& scene, const OrbitImpact& halt, const Condition& condition, std::size_t row,
-                 Linearised& out) const;
+  void add_halt(const FollowedScene& scene, const OrbitImpact& halt, const Condition& condition, std::size_t row,
+                Linearised& out) const;
   void add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const;
   void add_force(const FollowedScene& scene, const OrbitImpact& event, std::size_t unknown, std::size_t row,
                  Linearised& out) const;

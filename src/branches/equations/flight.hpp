@@ -88,18 +88,24 @@ class Flights {
     return pressed == Side::none ? function(constants_) : soft_.with_constants(pressed, function);
   }
 
-  /// The forcing phase, rad, for which friction holds a mass at a place from a phase on, before it is let go towards a
-  /// side (eq. 68). Negative: for so long it would have moved. Infinite: it is never let go, or held.
+  /// The static level of friction less the force that pushes a mass that halts at a place to a side: friction holds it
+  /// against that if it isn't negative.
+  [[nodiscard]] Number left_to_level(const Number& place, const Number& phase, Side side) const {
+    return p_.friction.static_level - sign_of(side) * force_at(Number(p_.middle() + place), phase);
+  }
+  /// The forcing phase, rad, from which on so strong a push rises beyond the static level (the guide's formula), less
+  /// that at which the mass halts: negative if that is later, up to the push's crest. Infinite: it never or always is
+  /// beyond.
   [[nodiscard]] Number hold(const Number& place, const Number& phase, Side side) const {
     using std::abs, std::atan, std::sqrt;
-    constexpr double turn = 2 * std::numbers::pi;
+    constexpr double turn = 2 * std::numbers::pi, quarter = turn / 4;
     const double sign = sign_of(side);
     const Number needed = p_.friction.static_level - sign * constants_.constant_force(Number(p_.middle() + place)),
                  sine = needed / abs(constants_.f), rising = atan(sine / sqrt((1 - sine) * (1 + sine)));
     if (sine >= 1 || sine <= -1) return (sine > 0 ? 1 : -1) * std::numeric_limits<double>::infinity();
-    const double opposed = sign * constants_.f < 0 ? std::numbers::pi : 0.0;
-    const Number late = phase + lead_ + opposed + rising;
-    return 2 * rising - (late - turn * std::round(static_cast<double>(late) / turn));
+    const Number of_push = phase + lead_ + (sign * constants_.f < 0 ? std::numbers::pi : 0.0);
+    const double turns = std::round((static_cast<double>(of_push) + quarter) / turn);
+    return rising - (of_push - turn * turns);
   }
   /// The phase at which motion begins after the event that a flight begins with.
   [[nodiscard]] Number start(const Flight<Number>& flight) const {

@@ -45,9 +45,14 @@ OrbitImpact Orbit::impact(std::size_t i) const {
   return later(mirrored ? branches::mirrored(impacts[i - size()]) : impacts[i - size()], advance());
 }
 
+Side Orbit::heading_before(std::size_t i) const {
+  if (i > 0) return impacts[i - 1].heading();
+  const Side last = impacts.back().heading();
+  return mirrored ? opposite(last) : last;
+}
+
 bool Orbit::meets_soft_stop() const {
-  return pressed != Side::none ||
-         std::ranges::any_of(impacts, [](const OrbitImpact& impact) {
+  return pressed != Side::none || std::ranges::any_of(impacts, [](const OrbitImpact& impact) {
            return impact.event != EventKind::impact && !branches::halts(impact.event);
          });
 }
@@ -59,6 +64,12 @@ bool Orbit::halts() const {
 bool Orbit::changes_nothing(std::size_t i) const {
   const EventKind event = impacts[i].event, before = impacts[(i + size() - 1) % size()].event;
   return event == EventKind::impact || presses(event) == presses(before);
+}
+
+Orbit Orbit::from_event(std::size_t i) const {
+  Orbit orbit = *this;
+  for (std::size_t k = 0; k < size(); ++k) orbit.impacts[k] = impact(i + k);
+  return orbit;
 }
 
 Orbit Orbit::whole() const {

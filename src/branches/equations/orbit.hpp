@@ -27,9 +27,9 @@ using EventKind = motion::Event::Kind;
 /// which it halts away from the stops.
 struct OrbitImpact {
   Side side = Side::none;  ///< the stop; of a halt the side that the mass slips to next
-  double phase = 0.0;   ///< forcing phase, rad, growing from impact to impact
-  double before = 0.0;  ///< velocity before the impact; at a soft stop it goes on
-  double rest = 0.0;    ///< forcing phase, rad, for which the mass rests from then on
+  double phase = 0.0;      ///< forcing phase, rad, growing from impact to impact
+  double before = 0.0;     ///< velocity before the impact; at a soft stop it goes on
+  double rest = 0.0;       ///< forcing phase, rad, for which the mass rests from then on
   EventKind event = EventKind::impact;
   double place = 0.0;  ///< of a halt: displacement from `SceneNumbers::middle`
 
@@ -64,7 +64,10 @@ struct Orbit {
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
   /// Impact i = 0 ... size: the last one is the first, half a period or a period later.
   [[nodiscard]] OrbitImpact impact(std::size_t i) const;
+  /// The side that the mass moves to before event i, if it is one of rigid stops and dry friction.
+  [[nodiscard]] Side heading_before(std::size_t i) const;
 
+  [[nodiscard]] Orbit from_event(std::size_t i) const;  ///< the same, with event i as its first
   [[nodiscard]] Orbit whole() const;              ///< both halves, if one is kept
   [[nodiscard]] Orbit repeated(int times) const;  ///< of the whole, as if it repeated only after so many periods
   [[nodiscard]] Orbit half_if_same(double tolerance, bool symmetric_scene) const;  ///< kept as a half, if it can be

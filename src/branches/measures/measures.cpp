@@ -26,8 +26,8 @@ void each_flight(const FollowedScene& scene, const Orbit& orbit, Function&& func
       from.phase += from.rest;
       const Flight<double> flight{from.side, from.phase, from.coordinate(), to.side, to.phase, from.event, to.event};
       const double start = flights.start(flight);
-      flights.with_arc(
-          flight, [&](const auto& arc) { function(arc, start, (to.phase - start) / flights.constants().nu); });
+      flights.with_arc(flight,
+                       [&](const auto& arc) { function(arc, start, (to.phase - start) / flights.constants().nu); });
     }
   });
 }

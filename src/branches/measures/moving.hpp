@@ -15,7 +15,7 @@ struct Moving {
   struct Impact {
     Side side;
     Along phase, before;  ///< the place of a halt instead
-    bool rests;  ///< the next contact is a rest: this impact and those that follow lose all
+    bool rests;           ///< the next contact is a rest: this impact and those that follow lose all
     EventKind event = EventKind::impact;
   };
   std::vector<Impact> impacts;

@@ -11,13 +11,18 @@ namespace {
 
 /// Whether friction holds a mass where an orbit says so, and lets it go where it says so.
 template <Effects E>
-std::optional<Violation> at_halt(const Flights<double, E>& flights, const OrbitImpact& halt, std::size_t i) {
+std::optional<Violation> at_halt(const Flights<double, E>& flights, const Orbit& orbit, std::size_t i) {
   using enum Violation::Kind;
-  const double held = flights.hold(halt.place, halt.phase, halt.side);
-  if (halt.event == EventKind::reversal) return held < 0 ? std::nullopt : std::optional(Violation{sticks, i, {}});
-  if (held == std::numeric_limits<double>::infinity()) return Violation{stays, i, {}};
-  const double other_way = flights.hold(halt.place, halt.phase, opposite(halt.side));
-  return held < 0 || other_way < held ? std::optional(Violation{slips, i, {}}) : std::nullopt;
+  const OrbitImpact& halt = orbit.impacts[i];
+  const auto holds = [&](Side side) { return flights.left_to_level(halt.place, halt.phase, side) >= 0; };
+  const auto release = [&](Side side) { return flights.hold(halt.place, halt.phase, side); };
+  const Side before = orbit.heading_before(i), other = opposite(halt.side);
+  if (halt.event == EventKind::reversal)
+    return holds(halt.side) ? std::optional(Violation{sticks, i, {}}) : std::nullopt;
+  if (!holds(halt.side) || !holds(other)) return Violation{slips, i, {}};
+  if (release(halt.side) == std::numeric_limits<double>::infinity()) return Violation{stays, i, {}};
+  if (!(sign_of(before) * flights.acceleration(halt.place, halt.phase, before) <= 0)) return Violation{runs_on, i, {}};
+  return release(other) < release(halt.side) ? std::optional(Violation{slips, i, {}}) : std::nullopt;
 }
 
 /// Whether a flight meets the stop ahead, or halts, at its end and not before.
@@ -59,12 +64,23 @@ std::optional<Violation> slip_violation(const FollowedScene& scene, const Orbit&
       if (!halts(event.event) && !(sign_of(event.side) * event.before > 0))
         return Violation{Violation::Kind::pulls, i, {}};
       if (halts(event.event))
-        if (const auto found = at_halt(flights, event, i)) return found;
+        if (const auto found = at_halt(flights, orbit, i)) return found;
     }
     for (std::size_t i = 0; i < orbit.size(); ++i)
       if (const auto found = in_flight(flights, orbit, i)) return found;
     return std::nullopt;
   });
+}
+
+Orbit with_halts(const FollowedScene& scene, const Orbit& orbit) {
+  Orbit halting = orbit;
+  with_arcs(scene, [&]<Effects E>() {
+    const Flights<double, E> flights{numbers_of<double>(scene)};
+    for (std::size_t i = orbit.size(); i-- > 0;)
+      if (const auto found = in_flight(flights, orbit, i); found && found->kind == Violation::Kind::halts)
+        halting = halting.with(found->turning, i + 1);
+  });
+  return halting;
 }
 
 }  // namespace clatter::branches

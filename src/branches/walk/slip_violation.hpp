@@ -9,4 +9,7 @@ namespace clatter::branches {
 [[nodiscard]] std::optional<Violation> slip_violation(const FollowedScene& scene, const Orbit& orbit,
                                                       std::optional<std::size_t> grazing);
 
+/// The orbit with a stick in each flight in which the velocity falls to 0 before the end.
+[[nodiscard]] Orbit with_halts(const FollowedScene& scene, const Orbit& orbit);
+
 }  // namespace clatter::branches

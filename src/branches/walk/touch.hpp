@@ -31,7 +31,6 @@ struct Touch {
   bool turns = false;  ///< or none more nor less: a renewal turns into a touch, or the other way round
   bool halts = false;  ///< under dry friction: without the impact the mass halts there
 
-
   [[nodiscard]] Graze graze() const;
 };
 

@@ -14,6 +14,7 @@ struct Violation {
     pulls,           ///< an impact's velocity points away from its stop; an event within a soft stop lies outside
     ends_early,      ///< a contact with a soft stop, or its interruption, ends before it begins
     halts,           ///< the velocity falls to 0 before a flight's end
+    runs_on,         ///< the mass isn't slowed down as it comes to a stick
     sticks,          ///< the mass isn't pushed away from a reversal as hard as the static level of friction
     slips,           ///< friction doesn't hold the mass at a stick, or not for so long
     stays            ///< nothing releases it from a stick
