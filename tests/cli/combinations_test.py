@@ -9,7 +9,7 @@ import unittest
 
 from combinations import Campaign, report
 from followed_branches import BranchCampaign
-from random_scenes import followed_scenes, rough_scenes, weak_scenes
+from random_scenes import followed_scenes, rough_scenes, slipping_scenes, weak_scenes
 from sweep_relations import SweepCampaign
 
 CLATTER = os.environ["CLATTER"]
@@ -38,6 +38,11 @@ class Combinations(unittest.TestCase):
         campaign = BranchCampaign(CLATTER, followed_scenes(max(40, COUNT // 10), SEED))
         self.assertEqual(report(campaign.failures), "")
         self.assertGreater(campaign.points, 200)
+
+    def test_points_of_branches_under_dry_friction_are_motions(self):
+        campaign = BranchCampaign(CLATTER, slipping_scenes(max(40, COUNT // 10), SEED))
+        self.assertEqual(report(campaign.failures), "")
+        self.assertGreater(campaign.points, 400)
 
     def test_points_of_a_sweep_know_where_the_others_end(self):
         """Followed points begin there, and starts are numbered by it."""

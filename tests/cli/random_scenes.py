@@ -217,6 +217,27 @@ def followed_scenes(count, seed):
     return scenes
 
 
+def slipping_scenes(count, seed):
+    """Dry friction between rigid stops that the mass reaches or not; its static level is the other one, or above it."""
+    draw = random.Random(seed)
+    scenes = []
+    for _ in range(count):
+        scene = Scene(h=draw.choice([0.0, logarithmic(draw, 1e-3, 0.3)]), nu=logarithmic(draw, 0.3, 3))
+        scene.f, scene.stiffness = draw.choice([-1, 1]), draw.choice([1.0, 1.0, logarithmic(draw, 0.2, 3)])
+        scene.load, gap = draw.choice([0.0, 0.0, draw.uniform(-0.3, 0.3)]), logarithmic(draw, 0.3, 6)
+        middle = draw.choice([0.0, scene.load / scene.stiffness])
+        scene.stop_lower, scene.stop_upper = middle - gap / 2, middle + gap / 2
+        scene.R_lower = scene.R_upper = draw.uniform(0.3, 0.95)
+        if draw.random() < 0.3:
+            scene.stop_lower, scene.R_lower = -INF, 1.0
+        scene.x0, scene.v0 = draw.uniform(middle - gap / 2, middle + gap / 2), draw.uniform(-1, 1)
+        scene.friction = logarithmic(draw, 0.02, 0.6)
+        if draw.random() < 0.2:
+            scene.friction_static = scene.friction * draw.uniform(1, 1.5)
+        scenes.append(scene)
+    return scenes
+
+
 def weak_scenes():
     """A mass that a load presses on a stop, all else from nothing to as strong as the load; one stop and two."""
     strengths = (0.0, 1e-12, 1e-8, 1e-4, 1e-2, 1.0)
