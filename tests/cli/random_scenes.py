@@ -149,6 +149,12 @@ def rough_scenes(count, seed):
     return [rubbed(draw, scene) if draw.random() < 0.25 else scene for scene in scenes]
 
 
+def rubbed_scenes(count, seed):
+    """Those of `random_scenes` that may have dry friction, all with it."""
+    draw = random.Random(f"friction {seed}")
+    return [rubbed(draw, scene) for scene in random_scenes(count, seed) if not scene.stop_amplitude]
+
+
 def compliant(draw):
     """Strongly damped soft stops: contacts that are interrupted, and a mass that a load presses into one."""
     gap = logarithmic(draw, 0.1, 2)
