@@ -120,7 +120,7 @@ Agreement agreement_of(const RunRecord& in_double, const RunRecord& in_fifty_dig
   std::size_t j = 0;
   for (const Event& event : events) {
     if (event.kind == Event::Kind::chatter)
-      while (j < exact.size() && exact[j].kind == Event::Kind::impact) ++j;
+      while (j < exact.size() && is_of_chatter(exact[j])) ++j;
     if (event.kind == Event::Kind::chatter && j == exact.size() && event.end() >= end)
       return agreement;  // the run ends within it
     const double other = j < exact.size() ? exact[j].time : in_double.duration;

@@ -22,6 +22,11 @@ using motion::Event;
 /// Joins the parts into which stroboscopic sections cut a rest or a chatter: then there is one for each time on a stop.
 [[nodiscard]] std::vector<Event> with_rests_joined(const std::vector<Event>& events);
 
+/// Whether a chatter consists of such events: impacts and, under friction, the turns between them.
+[[nodiscard]] constexpr bool is_of_chatter(const Event& event) {
+  return event.kind == Event::Kind::impact || event.kind == Event::Kind::reversal;
+}
+
 /// A run of a scene, rounded to doubles from its number type.
 struct RunRecord {
   stepping::Outcome outcome = stepping::Outcome::unresolved;

@@ -72,7 +72,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     go_on(constants, state, start, anchor);
     ArcToEvent<motion::PolynomialArc<Within>> flight{standing(constants, state), {count, Side::none, 0.0, start}};
     for (std::size_t i = 0; i < count; ++i) {
-      if (!(margins[i].of(start) <= 0 && margins[i].slope(start) < 0)) continue;
+      if (!falls_at_once(constants, margins[i], start)) continue;
       flight.crossing.margin = i;
       return flight;
     }
@@ -82,8 +82,10 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       flight.crossing.resolved = false;
       return flight;
     }
-    for (motion::Margin<double>& margin : margins) margin.constant += margin.place * (anchor_ - anchor);
+    const double moved = anchor_ - anchor;  // since the first step of the flight
+    for (motion::Margin<double>& margin : margins) margin.constant += margin.place * moved;
     motion::Crossing<double>& crossing = flight.crossing = first_crossing(flight.arc, margins, horizon);
+    crossing.motion.offset += moved;
     const double turns = state.phase_turns + crossing.elapsed / this->period();
     crossing.resolved = this->finite(crossing.motion.x) && (crossing.margin < count || turns > state.phase_turns);
     if (crossing.margin == count && crossing.elapsed < horizon)
@@ -98,6 +100,15 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   static constexpr Place nowhere{nan, nan, nan};  // equal to no Place
   using Pair = boost::numeric::odeint::runge_kutta_dopri5<Values>;
   using Stepper = typename boost::numeric::odeint::result_of::make_dense_output<Pair>::type;
+
+  /// Whether a margin is used up and falls: by the motion's rate, or that of a mass which friction lets go.
+  template <Effects Of>
+  [[nodiscard]] static bool falls_at_once(const motion::ArcConstants<double, Of>& constants,
+                                          const motion::Margin<double>& margin, const motion::Motion<double>& start) {
+    if (!(margin.of(start) <= 0)) return false;
+    const double slope = margin.slope(start), rate = constants.f * constants.nu * start.cosine;
+    return slope < 0 || (slope == 0 && start.v == 0 && margin.place * (start.a != 0 ? start.a : rate) < 0);
+  }
 
   /// Rebounds within the tolerance can't be told from rest.
   [[nodiscard]] static double low_rebound(const Integration& integration) {

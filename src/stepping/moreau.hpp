@@ -24,7 +24,8 @@ namespace clatter::stepping {
 /// its present velocity, would be pushed by it (eq. 50).
 ///
 /// Dry friction is an impulse at the end of a step, of at most mu over it, that takes the velocity towards 0 and not
-/// beyond: a mass sticks for whole steps, at its static level if it stood before.
+/// beyond: a mass sticks for whole steps. A step in which it stands, or turns back, ends without speed if the impulse
+/// of all other forces is within the static level.
 template <Effects E>
 class Moreau : public IntegratorBase<double, E> {
   using Base = IntegratorBase<double, E>;
@@ -98,9 +99,10 @@ class Moreau : public IntegratorBase<double, E> {
   [[nodiscard]] double rubbed(double momentum, double v, double length) const {
     if constexpr (E.friction) {
       if (!this->is_rough()) return momentum;
-      const double level = v == 0 ? this->slips().static_level : this->slips().kinetic;
-      if (std::abs(momentum) <= level * length) return 0.0;
-      return momentum - std::copysign(this->slips().kinetic * length, momentum);
+      const double most = this->slips().kinetic * length, hold = this->slips().static_level * length;
+      const bool turns = momentum * v <= 0;  // or stands
+      if (std::abs(momentum) <= most || (turns && std::abs(momentum - v) <= hold)) return 0.0;
+      return momentum - std::copysign(most, momentum);
     }
     return momentum;
   }
@@ -176,18 +178,21 @@ class Moreau : public IntegratorBase<double, E> {
     return affordable;
   }
 
-  /// Whether friction holds the mass for a whole step, which is then reported.
+  /// Whether friction holds the mass for a whole step, which is then reported: on a rigid stop as rest.
   template <class Observer>
-  [[nodiscard]] bool stand(const motion::State<double>& state, const Free& free, double turns, std::int64_t origin,
-                           Observer& observer) const {
+  [[nodiscard]] bool stand(motion::State<double>& state, const Free& free, double turns, std::int64_t origin,
+                           Observer& observer) {
     if constexpr (E.friction) {
       if (!this->is_rough() || state.v != 0 || free.v != 0) return false;
-      this->show_rest(state, this->holding_at(state).stop, turns - state.phase_turns, true, origin, observer);
+      const Side side = active(state, free.length);
+      if (side != Side::none) state.x = motion::stop_at<double>(this->stops(), side).position;
+      this->show_rest(state, side, turns - state.phase_turns, true, origin, observer);
+      slid_ = 0.0;
       return true;
     }
     return false;
   }
-  /// Reports that the mass has turned back since its last slip.
+  /// Reports that the mass has turned back since its last slip, in this step or at the end of the one before.
   template <class Constants, class Observer>
   void turn(const Constants& constants, const motion::State<double>& state, const Free& free, std::int64_t origin,
             Observer& observer) {
@@ -234,14 +239,14 @@ class Moreau : public IntegratorBase<double, E> {
   template <class Observer>
   void rest(motion::State<double>& state, const motion::Stop<double>& stop, double turns, std::int64_t origin,
             Observer& observer) {
-    state.x = stop.position;
+    state.x = stop.position, slid_ = 0.0;
     this->show_rest(state, stop.side, turns - state.phase_turns, true, origin, observer);
   }
 
   /// Moves with the velocity before the impulse until it acts, and with the one after it from there.
   template <class Observer>
   void collide(motion::State<double>& state, const motion::Stop<double>& stop, const Free& free, std::int64_t origin,
-               Observer& observer) const {
+               Observer& observer) {
     const double before = stop.into(state.v) > 0 ? state.v : free.v;  // leaving too slowly: pushed back by the force
     const double pressed = stop.into(force(this->constants(), stop.position, 0.0, free.sine)),
                  rebound = -stop.into(stop.law.after(before));
@@ -249,7 +254,7 @@ class Moreau : public IntegratorBase<double, E> {
     constexpr double least = 1e-6;  // of a step: the impact must not coincide with its beginning
     const double until = std::max(1 - theta_, least) * free.length;
     drift(state, until, origin, observer);
-    state.v = after + 0.0;  // no negative zero
+    state.v = slid_ = after + 0.0;  // no negative zero
     this->show_impact(state, stop, before, origin, observer);
     if (after == 0) {
       state.x = stop.position;
@@ -278,7 +283,7 @@ class Moreau : public IntegratorBase<double, E> {
 
   double step_, theta_;
   double sine_ = 0.0;  ///< of the force, at the state
-  double slid_ = 0.0;  ///< velocity of the last slip
+  double slid_ = 0.0;  ///< velocity of the last slip; 0 if the mass has stood since
 };
 
 }  // namespace clatter::stepping

@@ -14,30 +14,33 @@ constexpr double at_the_end = 1e-14;
 
 std::size_t& count_of(accuracy::Event::Kind kind, Deviation& deviation) {
   if (kind == accuracy::Event::Kind::impact) return deviation.impacts;
+  if (kind == accuracy::Event::Kind::reversal) return deviation.reversals;
   return kind == accuracy::Event::Kind::chatter ? deviation.chatters : deviation.rests;
 }
 
 std::string text(const accuracy::Event& event) {
-  static const char* const names[] = {"impact", "rest", "chatter"};
+  static const char* const names[] = {"impact",  "rest",       "chatter", "touch",
+                                      "renewal", "separation", "stick",   "reversal"};
   std::ostringstream out;
-  out << names[static_cast<int>(event.kind)] << " on " << (event.side == Side::upper ? "upper" : "lower") << " stop at "
-      << std::setprecision(17) << event.time;
+  out << names[static_cast<int>(event.kind)];
+  if (event.side != Side::none) out << " on " << (event.side == Side::upper ? "upper" : "lower") << " stop";
+  out << " at " << std::setprecision(17) << event.time;
   return out.str();
 }
 
 }  // namespace
 
-double Deviation::largest() const { return std::max({time, speed, end}); }
+double Deviation::largest() const { return std::max({time, speed, place, end}); }
 
 Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord& reference) {
   const auto events = accuracy::with_rests_joined(record.events),
              expected = accuracy::with_rests_joined(reference.events);
   Deviation result;
-  double size_x = std::abs(reference.x), size_v = std::abs(reference.v);
+  double size_x = std::abs(reference.x), size_v = std::abs(reference.v), size_place = size_x;
   std::size_t j = 0;
   for (const accuracy::Event& event : events) {
     if (event.kind == accuracy::Event::Kind::chatter)  // the reference takes more impacts
-      while (j < expected.size() && expected[j].kind == accuracy::Event::Kind::impact) ++j;
+      while (j < expected.size() && accuracy::is_of_chatter(expected[j])) ++j;
     const double latest = event.kind == accuracy::Event::Kind::chatter ? event.end() : event.time;
     if (j == expected.size() && latest >= (1 - at_the_end) * reference.duration) continue;  // or the run ends within it
     if (j == expected.size() || expected[j].kind != event.kind || expected[j].side != event.side) {
@@ -50,6 +53,8 @@ Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord
     result.time = std::max({result.time, event.kind == accuracy::Event::Kind::chatter ? 0.0 : off, end_off});
     result.speed = std::max(result.speed, std::abs(event.speed() - other.speed()));
     size_v = std::max(size_v, other.speed());
+    result.place = std::max(result.place, std::abs(event.place - other.place));
+    size_place = std::max(size_place, std::abs(other.place));
     ++count_of(event.kind, result);
   }
   while (j < expected.size() && expected[j].time >= (1 - at_the_end) * reference.duration) ++j;
@@ -58,6 +63,7 @@ Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord
   size_v = std::max(size_v, size_x);  // the natural frequency is 1
   result.time /= reference.duration;
   if (size_v > 0) result.speed /= size_v;
+  if (size_place > 0) result.place /= size_place;
   if (size_x > 0)
     result.end = std::max(std::abs(record.x - reference.x) / size_x, std::abs(record.v - reference.v) / size_v);
   return result;
@@ -76,6 +82,8 @@ double conditioning(const point::Problem& scene, const accuracy::RunRecord& refe
                           &stops.restitution_upper, &start.velocity, &start.phase, &start.displacement, &o.stiffness})
       if (*value != 0.0 && !(value == &o.stiffness && *value == 1.0))
         *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();
+    const double more_friction = 1 + (signs & 1 ? 1 : -1) * epsilon<double>();
+    moved.friction.kinetic *= more_friction, moved.friction.static_level *= more_friction;
     for (double* value : {&stops.lower, &stops.upper}) {
       const bool on_it = scene.start.displacement == *value;
       *value *= 1 + epsilon<double>();

@@ -35,6 +35,8 @@ struct EventList {
   void arc(const A&, double, double) {}
   void rest(const motion::Rest& rest) { events.push_back(motion::event_of(rest)); }
   void impact(const motion::Impact& impact) { events.push_back(motion::event_of(impact)); }
+  void reversal(const motion::Reversal& reversal) { events.push_back(motion::event_of(reversal)); }
+  void touch(const motion::Touch& touch) { events.push_back(accuracy::as_impact(motion::event_of(touch))); }
 };
 
 /// The run of a scene by a general method, as record_of gives that of the exact one.
