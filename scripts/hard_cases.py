@@ -35,6 +35,7 @@ TITLES = {
     "unstable_spring": "k = −1, −100: at rest on top, over it by 1e-12, chatter",
     "soft_stops": "soft stops: κ = 1e-3 … 1e12, ζ = 0 … 1e3, a graze, a resonance",
     "shaken_stops": "shaken stops: rest on them, no other force, resonance",
+    "dry_friction": "dry friction: turn 200 just sticks, let go at a tangency, R = 1, a stick off a stop, μ = f",
     "chaos": "chaos: 100 forcing periods of it",
 }
 

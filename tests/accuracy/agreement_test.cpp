@@ -91,6 +91,18 @@ TEST(Agreement, leaves_out_the_impacts_of_fifty_digits_in_a_chatter_that_a_doubl
   EXPECT_LT(std::max({errors.time, errors.speed, errors.rest}), 1e-13);  // a few roundings of times up to 12.6
 }
 
+TEST(Agreement, leaves_out_the_turns_between_those_impacts_too) {
+  point::Problem scene = support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);
+  scene.friction = {0.1, 0.2};
+  const double duration = 8 * std::numbers::pi;
+  const RunRecord in_double = record_of(scene, duration), exact = reference_of(scene, duration);
+  ASSERT_GT(count(in_double.events, Event::Kind::chatter), 0u);
+  ASSERT_GT(count(exact.events, Event::Kind::reversal), count(in_double.events, Event::Kind::reversal) + 20);
+  const Agreement agreement = agreement_of(in_double, exact, 1e-12 * duration);
+  EXPECT_EQ(agreement.until, duration);
+  EXPECT_EQ(agreement.events.size(), with_rests_joined(in_double.events).size());
+}
+
 TEST(Agreement, of_chaotic_motion_ends_and_lasts_the_longer_the_more_room_there_is) {
   // One stop in the middle. Errors grow e-fold in less than two of the 100 periods, so that 1e-15 becomes all.
   point::Problem scene = support::scene_of({0.02, 1.0, 2.7, 0.0}, 0.0, std::numeric_limits<double>::infinity(), 0.8);

@@ -169,6 +169,20 @@ TEST(Comparison, a_rest_that_a_section_cuts_is_one) {
   EXPECT_EQ(errors.rest, 0.0);
 }
 
+TEST(Comparison, sticks_are_rests_at_no_stop_and_reversals_are_not_compared) {
+  const auto stick = [](double time, double length) {
+    return Event{Event::Kind::stick, Side::none, time, 0.0, length};
+  };
+  const auto reversal = [](double time) { return Event{Event::Kind::reversal, Side::none, time}; };
+  const Events reference{stick(1, 0.5), reversal(2), stick(3, 0.5), rest(4, 0.5)};
+  const ContactErrors off = compare(Events{stick(1, 0.5), stick(3, 0.4), rest(4.02, 0.5)}, reference, any);
+  EXPECT_EQ(off.rests_paired, 3u);
+  EXPECT_NEAR(off.rest, 0.1, 1e-15);
+  EXPECT_EQ(off.missed + off.extra + off.rests_missed, 0u);
+  EXPECT_EQ(compare(Events{rest(1, 3.5)}, reference, any).rests_missed, 2u);
+  EXPECT_EQ(compare(Events{stick(1, 3.5)}, reference, any).rests_missed, 1u);
+}
+
 TEST(Comparison, takes_the_stops_apart) {
   Events lower;
   for (const double time : {1.02, 2.02, 3.02}) lower.push_back(impact(time, 0.5, Side::lower));

@@ -129,6 +129,9 @@ TEST(RestsJoined, are_one_for_each_stay) {
   EXPECT_EQ(joined[0].end(), 2.75);
   EXPECT_EQ(joined[2].length, 1.0);
   EXPECT_TRUE(with_rests_joined({}).empty());
+  const auto stick = [](double time, double length) { return Event{Event::Kind::stick, Side::none, time, 0, length}; };
+  const Event reversal{Event::Kind::reversal, Side::none, 5};
+  EXPECT_EQ(with_rests_joined({stick(1, 1), stick(2, 1), stick(3.5, 1), reversal, reversal}).size(), 4u);
   point::Problem scene = with_rests();
   scene.start.phase = 2;  // the section at 1 period lies in a rest
   const RunRecord record = record_of(scene, 2 * period_of(scene));

@@ -54,9 +54,9 @@ void print(const hard::Case& one, const Solver& solver, const SolverRun& run, co
             << ", \"right_hand_sides\": " << run.right_hand_sides() << "}" << std::endl;
 }
 
-/// The solvers integrate a spring of k = 1 between rigid stops.
+/// The solvers integrate a spring of k = 1 between rigid stops, without dry friction.
 bool is_solvable(const point::Problem& scene) {
-  return scene.oscillator.stiffness == 1.0 && !has_soft_stop(scene.stops);
+  return scene.oscillator.stiffness == 1.0 && !has_soft_stop(scene.stops) && !has_friction(scene.friction);
 }
 
 void measure(const hard::Case& one) {

@@ -38,7 +38,6 @@ class BranchFriction(BranchRuns):
         for scene, along, low, high in (
             (FREE.format(nu=0.8, mu=0.3), "friction", 0.2, 0.95),
             (FREE.format(nu=0.8, mu=0.6), "nu", 0.2, 0.9),
-            (FREE.format(nu=1.5, mu=0.3), "nu", 1.0, 2.5),
         ):
             special = [
                 point
@@ -69,7 +68,7 @@ class BranchFriction(BranchRuns):
             k = int(np.argmin(np.abs(data["nu"][()] - 1.3)))
             self.assertEqual(data["nu"][k], 1.3)
             np.testing.assert_allclose(data["multiplier_re"][k], [0.267959696315445, 0], rtol=0, atol=1e-13)
-            self.assertEqual(data["word"][k], b"UL")
+            self.assertEqual(data["word"][k], b"LU")
 
     def test_branches_in_si_are_those_of_the_scene(self):
         """Mass 1 kg, stiffness 1 N/m: the units are those of the scene."""
@@ -95,14 +94,15 @@ class BranchFriction(BranchRuns):
             self.assertAlmostEqual(a["nu"], b["nu"], 9)
 
     def test_motion_jumps_beyond_the_end_of_a_branch(self):
-        """With a static level above friction a slip whose velocity just comes to 0 ends in a long stick."""
+        """With a static level above friction a mass that just doesn't slip back at once sticks for long."""
         scene = FREE.format(nu=0.8, mu=0.1) + "friction_static = 0.2\n"
         special = self.special_points(scene + ALONG.format(along="nu", low=0.2, high=0.9))
-        ends = [point for point in special if point["kind"] == "grazing-sliding"]
+        ends = [point for point in special if point["kind"] == "switching-sliding"]
         self.assertEqual(len(ends), 1, special)
         self.assertEqual(ends[0]["branches"], [0])
         at = ends[0]["nu"]
-        before, beyond = self.stick_fractions(scene, "nu", [at + 1e-6, at - 1e-6])
+        # a little before it a run from rest already ends in the motion that sticks, which is another one
+        before, beyond = self.stick_fractions(scene, "nu", [at + 1e-3, at - 1e-6])
         self.assertEqual(before, 0)
         self.assertGreater(beyond, 0.01)
 

@@ -1,8 +1,10 @@
 #include "hard/cases.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
 
 #include "scene/shaking.hpp"
 
@@ -57,6 +59,19 @@ point::Problem pressed(double R) { return symmetric({0.0, 0.0, 1.0, 1.0}, 0.5, R
 
 /// Free vibration through |x'| = 1.5 between stops at 0.75: a contact at asin(0.5) and then every 2 asin(0.5).
 point::Problem free_vibration() { return starting(symmetric({0.0, 0.0, 1.0, 0.0}, 0.75, 1.0), {0.0, 1.5, 0.0}); }
+
+/// From rest at a place, under dry friction and without stops.
+point::Problem rubbing(const Oscillator& oscillator, double kinetic, double static_level, double place = 0.0) {
+  point::Problem scene = starting(symmetric(oscillator, infinity, 1.0), {place, 0.0, 0.0});
+  scene.friction = {kinetic, static_level};
+  return scene;
+}
+point::Problem between_stops(point::Problem scene, double xs, double R) {
+  scene.stops = {-xs, xs, R, R};
+  return scene;
+}
+
+constexpr double ulp = std::numeric_limits<double>::epsilon() / 2;  // of numbers just below 1
 
 const Oscillator slow_force{0.1, 1.0, 0.5, 0.0};  // with stops at 0.5: chatter and rest
 const double chatter_end = 4.4158803670592697;    // of slow_force, R = 0.5, from rest
@@ -210,6 +225,30 @@ std::vector<Case> all_cases() {
       8 * pi_);
   add("shaken_stops", "at the spring's frequency", between_shaken(symmetric({0.0, 1.0, 1.0, 0.0}, 0.5, 0.8), 1.0),
       8 * pi_);
+
+  // free motion turns at x0 - 2n mu, n = 1, 2, ..., and sticks at the first such place within the static level over k
+  for (const auto& [what, level] : {std::pair{"turn 200 just sticks", 1.5 * (1 + 1e-11)},
+                                    {"turn 200 just doesn't", 1.5 * (1 - 1e-11)}})
+    add("dry_friction", what, rubbing({}, 1.0, level, 401.5), 210 * pi_);
+  for (const auto& [what, kinetic, level] : {std::tuple{"let go at |f| = level (1 + 1e-9)", 0.5, 1 - 1e-9},
+                                             {"let go at |f| = level (1 + 2 ulps)", 0.5, 1 - 2 * ulp},
+                                             {"the same, mu = level", 1 - 2 * ulp, 1 - 2 * ulp},
+                                             {"held at |f| = level (1 - 2 ulps)", 0.5, 1 + 4 * ulp}})
+    add("dry_friction", what, between_stops(rubbing({0.05, 1.0, 0.5, 0.5}, kinetic, level, 0.5), 0.8, 0.7), 24 * pi_);
+  add("dry_friction", "mu = f", between_stops(rubbing({0.1, 1.0, 0.7, 0.0}, 1.0, 1.0, 0.25), 0.5, 0.7), 40 * pi_);
+  add("dry_friction", "mu = f, carried along by a load", rubbing({0.1, 1.0, 0.7, 0.3}, 1.0, 1.0), 80 * pi_);
+  add("dry_friction", "static 100 times sliding", between_stops(rubbing({0.05, 1.0, 0.3, 0.0}, 9e-3, 0.9), 2.0, 0.7),
+      40 * pi_);
+  add("dry_friction", "chatter to rest, R = 1", between_stops(rubbing({0.0, 0.0, 1.0, 1.0}, 0.02, 0.1), 0.5, 1.0), 200.0);
+  add(
+      "dry_friction", "chatter into a stick",
+      [] {
+        point::Problem scene = between_stops(rubbing({0.0, 0.5, 0.02, 0.9}, 0.01, 0.3), 0.2, 1.0);
+        scene.start.phase = pi_;
+        return scene;
+      }(),
+      50 * pi_);
+  add("dry_friction", "stays off the stop", between_stops(rubbing({0.05, 0.0, 1.0, 1.0}, 0.1, 0.55), 0.5, 0.9), 20.0);
 
   add("chaos", "xs = 3, nu = 0.95", symmetric({0.1, -1.0, 0.95, 0.0}, 3.0, 0.7), 100 * 2 * pi_ / 0.95);
   return all;

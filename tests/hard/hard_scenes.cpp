@@ -77,10 +77,11 @@ Json certificate_of(const Case& one, const ExactRun& run) {
   return json;
 }
 
-/// Writes the cases of some rows, of all if none is named, but for those with too many events.
+/// Writes the cases of some rows, of all if none is named, but for those with too many events or with dry friction.
 void write(const std::vector<std::string>& rows) {
   for (const Case& one : cases()) {
     if (!rows.empty() && std::ranges::find(rows, one.row) == rows.end()) continue;
+    if (has_friction(one.scene.friction)) continue;
     const auto in_double = accuracy::with_rests_joined(accuracy::record_of(one.scene, one.duration).events);
     if (in_double.size() > most_events) continue;
     const ExactRun run = in_double.empty() ? exact_flight(one) : exact_run(one);

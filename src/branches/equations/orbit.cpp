@@ -141,7 +141,8 @@ Orbit Orbit::once_with_graze(std::size_t i, bool symmetric_scene) const {
 
 /// Motion without a letter whose soft stop is left or meets the mass again does so beyond the stop's position.
 std::string Orbit::word() const {
-  return ImpactWord::word_of(contacts_of(*this), impacts.empty() ? pressed : impacts.front().side);
+  const Side soft = meets_soft_stop() && !impacts.empty() ? impacts.front().side : pressed;
+  return ImpactWord::word_of(contacts_of(*this), soft);
 }
 std::string Orbit::regime() const { return ImpactWord::regime_of(contacts_of(*this), period_ratio()); }
 
