@@ -46,7 +46,7 @@ double bounces_on(const point::Problem& scene, double position, double pull) {
   const double friction = scene.friction.kinetic, spent = friction * time / (2 * speed);  // share of the speed
   const double impacts = pull * stretched / (2 * speed) * (spent > 0 ? -std::log1p(-std::min(spent, 1.0)) / spent : 1);
   if (friction > 0) return std::min(36 * pull / friction, impacts);  // also if its start isn't known
-  return std::isnan(impacts) ? scene.time.max_impacts : impacts;  // its start isn't known, or it stays on the stop
+  return std::isnan(impacts) ? scene.time.max_impacts : impacts;     // its start isn't known, or it stays on the stop
 }
 
 /// One digit of a number above 1: 30, 2000, 1e+08.
