@@ -62,9 +62,8 @@ std::size_t first_rotation(const std::vector<T>& items) {
 
 std::vector<Column<ImpactWord::Values>> ImpactWord::columns(const Settings& settings) {
   const char* const letters =
-      settings.word_sticks
-          ? "impacts and sticks of one period in order, L: lower stop, U: upper, *: until at rest, S: stick"
-          : "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest";
+      settings.word_sticks ? "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest; S: stick"
+                           : "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest";
   return {missing_if("no period is known", text("impact_word", letters, &Values::impact_word, longest + cut.size())),
           missing_if("no period is known, or there is no force",
                      text("regime", "impacts on the stop with more of them / forcing periods", &Values::regime, 40)),

@@ -35,16 +35,18 @@ double way_of(const point::Problem& scene) {
 }
 
 /// Impacts on a stop that an acceleration `pull` presses the mass onto: it returns after 2v/pull, and damping
-/// takes 2h v^2/3 of its energy in a unit of time, so that v falls as e^(-2ht/3). Friction takes mu/pull of the speed
-/// in each flight, and all of its digits in some 36 pull/mu.
+/// takes 2h v^2/3 of its energy in a unit of time, so that v falls as e^(-2ht/3). Friction takes mu/pull of the
+/// speed in each flight, mu/2 in a unit of time, and all of its digits in some 36 pull/mu flights.
 double bounces_on(const point::Problem& scene, double position, double pull) {
   if (!(pull >= 0)) return 0;
   const double time = longest_time(scene), fading = 2 * scene.oscillator.damping / 3;
   const double height = std::abs(scene.start.displacement - position);
   const double speed = std::hypot(scene.start.velocity, std::sqrt(2 * pull * height));
   const double stretched = fading > 0 ? std::expm1(fading * time) / fading : time;
-  const double impacts = std::min(pull * stretched / (2 * speed), 36 * pull / scene.friction.kinetic);
-  return std::isnan(impacts) ? scene.time.max_impacts : impacts;  // its start isn't known, or it stays on the stop
+  const double friction = scene.friction.kinetic, spent = friction * time / (2 * speed);  // share of the speed
+  const double impacts = pull * stretched / (2 * speed) * (spent > 0 ? -std::log1p(-std::min(spent, 1.0)) / spent : 1);
+  if (friction > 0) return std::min(36 * pull / friction, impacts);  // also if its start isn't known
+  return std::isnan(impacts) ? scene.time.max_impacts : impacts;     // its start isn't known, or it stays on the stop
 }
 
 /// One digit of a number above 1: 30, 2000, 1e+08.

@@ -37,13 +37,13 @@ Bounds periods_of(const point::Problem& scene, const Effects& effects) {
   const Oscillator& o = scene.oscillator;
   const double longest = static_cast<double>(time.max_periods), period = period_of(o);
   if (time.mode == steady::Mode::transient) return {time.duration / period, time.duration / period};
+  if (never_moves(scene)) return {1, 1};
+  if (effects.friction) return {2, longest + static_cast<double>(time.window)};
   if (scene.integration.all_effects) {
     const double least = static_cast<double>(steady::last_look(o, time.max_periods));
     return {std::max(1.0, least) + 1, longest + static_cast<double>(time.window)};
   }
-  if (never_moves(scene)) return {1, 1};
-  if (scene.integration.method != stepping::Method::exact || effects.friction)
-    return {2, longest + static_cast<double>(time.window)};
+  if (scene.integration.method != stepping::Method::exact) return {2, longest + static_cast<double>(time.window)};
   if (!effects.stops() && comes_to_its_end(scene, longest * period)) return {1, 1};
   if (o.forcing == 0 && o.damping == 0 && !effects.dissipation) return {0, 1};
   return {2, longest * 1.25 + std::min(64.0, longest) + static_cast<double>(time.window)};
