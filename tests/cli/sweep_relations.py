@@ -78,7 +78,7 @@ class SweepCampaign:
         return near and np.array_equal(runs["period_ratio"][k], others["period_ratio"][j], equal_nan=True)
 
     def starts(self, i, scene):
-        """Starts have the same number just if they end in the same motion, or where friction holds the mass for good."""
+        """Starts have the same number just if they end in the same motion, or friction holds the mass for good."""
         low, high = max(scene.stop_lower, -2.0), min(scene.stop_upper, 2.0)
         x0 = [low + (high - low) * share for share in (0.5, 0.1, 0.9, 0.3, 0.7, 0.45)]
         v0 = [0.0, 1.3, -0.8, -2.1, 0.4, 3.0]
