@@ -68,8 +68,8 @@ struct Orbit {
   [[nodiscard]] Side heading_before(std::size_t i) const;
 
   [[nodiscard]] Orbit from_event(std::size_t i) const;  ///< the same, with event i as its first
-  [[nodiscard]] Orbit whole() const;              ///< both halves, if one is kept
-  [[nodiscard]] Orbit repeated(int times) const;  ///< of the whole, as if it repeated only after so many periods
+  [[nodiscard]] Orbit whole() const;                    ///< both halves, if one is kept
+  [[nodiscard]] Orbit repeated(int times) const;        ///< of the whole, as if it repeated only after so many periods
   [[nodiscard]] Orbit half_if_same(double tolerance, bool symmetric_scene) const;  ///< kept as a half, if it can be
   [[nodiscard]] Orbit with(const OrbitImpact& impact, std::size_t after) const;
   [[nodiscard]] Orbit with_event(std::size_t i, EventKind event) const;  ///< event i is another one
