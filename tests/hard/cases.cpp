@@ -227,8 +227,8 @@ std::vector<Case> all_cases() {
       8 * pi_);
 
   // free motion turns at x0 - 2n mu, n = 1, 2, ..., and sticks at the first such place within the static level over k
-  for (const auto& [what, level] : {std::pair{"turn 200 just sticks", 1.5 * (1 + 1e-11)},
-                                    {"turn 200 just doesn't", 1.5 * (1 - 1e-11)}})
+  for (const auto& [what, level] :
+       {std::pair{"turn 200 just sticks", 1.5 * (1 + 1e-11)}, {"turn 200 just doesn't", 1.5 * (1 - 1e-11)}})
     add("dry_friction", what, rubbing({}, 1.0, level, 401.5), 210 * pi_);
   for (const auto& [what, kinetic, level] : {std::tuple{"let go at |f| = level (1 + 1e-9)", 0.5, 1 - 1e-9},
                                              {"let go at |f| = level (1 + 2 ulps)", 0.5, 1 - 2 * ulp},
@@ -239,7 +239,8 @@ std::vector<Case> all_cases() {
   add("dry_friction", "mu = f, carried along by a load", rubbing({0.1, 1.0, 0.7, 0.3}, 1.0, 1.0), 80 * pi_);
   add("dry_friction", "static 100 times sliding", between_stops(rubbing({0.05, 1.0, 0.3, 0.0}, 9e-3, 0.9), 2.0, 0.7),
       40 * pi_);
-  add("dry_friction", "chatter to rest, R = 1", between_stops(rubbing({0.0, 0.0, 1.0, 1.0}, 0.02, 0.1), 0.5, 1.0), 200.0);
+  add("dry_friction", "chatter to rest, R = 1", between_stops(rubbing({0.0, 0.0, 1.0, 1.0}, 0.02, 0.1), 0.5, 1.0),
+      200.0);
   add(
       "dry_friction", "chatter into a stick",
       [] {

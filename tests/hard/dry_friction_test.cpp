@@ -62,7 +62,8 @@ TEST(DryFriction, brings_elastic_chatter_to_rest) {
   ASSERT_EQ(those(what, Event::Kind::rest).size(), 1u);
   const double rho = std::sqrt(0.48 / 0.52);
   for (std::size_t i = impacts.size() - 50; i < impacts.size(); ++i)
-    EXPECT_NEAR(impacts[i].speed() / impacts[i - 1].speed(), rho, impacts[i - 1].speed());  // the height is of order v^2
+    EXPECT_NEAR(impacts[i].speed() / impacts[i - 1].speed(), rho,
+                impacts[i - 1].speed());  // the height is of order v^2
 }
 
 TEST(DryFriction, leaves_a_mass_off_the_stop_that_it_chatters_on_if_its_static_level_is_above_what_presses_it) {

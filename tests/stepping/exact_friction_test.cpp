@@ -110,7 +110,8 @@ TEST(ExactFriction, a_mass_on_a_floor_comes_to_rest_after_a_geometric_series_eve
     const auto impacts = those(record, Event::Kind::impact), rests = those(record, Event::Kind::rest);
     ASSERT_GT(impacts.size(), 10u);
     for (std::size_t i = 0; i < impacts.size(); ++i)
-      EXPECT_NEAR(impacts[i].speed() * R / std::pow(rho, static_cast<double>(i + 1)), 1, 1e-13);  // a rounding an impact
+      EXPECT_NEAR(impacts[i].speed() * R / std::pow(rho, static_cast<double>(i + 1)), 1,
+                  1e-13);  // a rounding an impact
     ASSERT_EQ(rests.size(), 1u);
     EXPECT_NEAR(rests[0].time, end, 1e-14 * end);
     EXPECT_EQ(record.x, 0);
