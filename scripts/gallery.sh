@@ -52,7 +52,11 @@ draw bouncing_ball --only section_v --size 5x3.5
 draw gear_rattle --only x_min,x_max,impact_power --size 7x3.5
 draw harvester --only impact_power --size 5x3.8
 draw soft_bumper --only contact_force_max --log xy --size 5x3.5
-draw slide --only x_max --size 5x3.8
+draw slide --only x_max --ylim '0 mm, 6.6 mm' --size 5x3.8
+"$clatter" run "$source_dir/configs/slide.toml" --set machine.friction='12 N' --set machine.frequency='4 Hz' \
+  --set observe.trajectory=1000 -o "$work/slide_sticks.h5" -q
+"$source_dir/scripts/plot.py" "$work/slide_sticks.h5" --only trajectory --size 7x5 --title 'Slide that sticks at each turn' \
+  --format svg -o "$out"
 draw soft_history --only trajectory --size 7x5
 draw basins --only attractor --size 6x3.8
 draw zones --size 8x4.2

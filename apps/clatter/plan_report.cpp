@@ -132,6 +132,9 @@ std::vector<KeyAndNumber> computed_scene(const point::Problem& problem) {
   } else {
     scene.push_back({"R_upper", stops.restitution_upper});
   }
+  if (has_friction(problem.friction))
+    scene.insert(scene.end(),
+                 {{"friction", problem.friction.kinetic}, {"friction_static", problem.friction.static_level}});
   scene.insert(scene.end(), {{"x0", problem.start.displacement}, {"v0", problem.start.velocity}});
   return scene;
 }

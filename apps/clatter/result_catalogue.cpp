@@ -16,12 +16,14 @@
 namespace clatter::app {
 namespace {
 
-/// A scene that has everything that brings variables of its own: a force, soft stops, shaking; over a parameter and a
-/// start.
+/// A scene that has everything that brings variables of its own: a force, soft stops, friction, shaking; over a
+/// parameter and a start.
 constexpr std::string_view in_scene =
-    "[scene]\nf = 1\nxs = 1\nstop_stiffness = 9\nstop_amplitude = 0.1\n\n[sweep]\nnu = [1, 2]\nx0 = [0]\n\n[observe]\n";
+    "[scene]\nf = 1\nxs = 1\nstop_stiffness = 9\nfriction = 0.1\nbase_amplitude = 0.1\n\n"
+    "[sweep]\nnu = [1, 2]\nx0 = [0]\n\n[observe]\n";
 constexpr std::string_view in_machine =
-    "[machine]\nmass = 1\nstiffness = 1\nforce = 1\ngap = 1\nstop_stiffness = 9\nstop_amplitude = 0.1\n\n"
+    "[machine]\nmass = 1\nstiffness = 1\nforce = 1\ngap = 1\nstop_stiffness = 9\nfriction = 0.1\nbase_amplitude = "
+    "0.1\n\n"
     "[sweep]\nfrequency = [1, 2]\nx0 = [0]\n\n[observe]\n";
 
 /// A configuration with every observable, by the example of its key.

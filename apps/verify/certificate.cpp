@@ -122,6 +122,13 @@ Certificate::SceneNumbers scene_of(const Field& field) {
       field.get("h").number_from(0, Field::infinity),         field.get("k").number(),    field.get("f").number(),
       field.get("nu").number_from(0, Field::infinity, false), field.get("load").number(), field.get("phase").number(),
       {stop_of(field, "lower"), stop_of(field, "upper")}};
+  if (const auto friction = field.find("friction")) scene.friction = friction->number_from(0, Field::infinity);
+  scene.friction_static = scene.friction;
+  if (const auto level = field.find("friction_static")) {
+    scene.friction_static = level->number_from(0, Field::infinity);
+    if (scene.friction_static.ball() < scene.friction.ball())
+      level->refuse("is below friction", "give the same or more, or leave it out");
+  }
   if (scene.stops[0] && scene.stops[1] && !(scene.stops[0]->position.ball() < scene.stops[1]->position.ball()))
     field.refuse("has its lower stop above the upper one", "exchange them");
   return scene;
@@ -132,12 +139,19 @@ ClaimedEvent event_of(const Field& field) {
   const Field kind = field.get("event");
   const std::string name = kind.text();
   bool known = false;
-  for (const Kind one :
-       {Kind::impact, Kind::touch, Kind::separation, Kind::renewal, Kind::graze, Kind::chatter, Kind::rest})
+  for (const Kind one : {Kind::impact, Kind::touch, Kind::separation, Kind::renewal, Kind::graze, Kind::chatter,
+                         Kind::rest, Kind::reversal, Kind::stick})
     if (name == name_of(one)) event.kind = one, known = true;
-  if (!known) kind.refuse("is " + shown(name), "write impact, touch, separation, renewal, graze, chatter or rest");
-  event.side = field.get("stop").side();
+  if (!known)
+    kind.refuse("is " + shown(name),
+                "write impact, touch, separation, renewal, graze, chatter, rest, reversal or stick");
   event.time = field.get("time").claimed();
+  if (is_of_friction(event.kind)) {
+    event.x = field.get("x").claimed();
+    if (event.kind == Kind::stick) event.until = field.get("until").claimed();
+    return event;
+  }
+  event.side = field.get("stop").side();
   if (event.kind == Kind::chatter || event.kind == Kind::rest)
     event.until = field.get("until").claimed();
   else if (event.kind != Kind::graze)
@@ -149,6 +163,10 @@ ClaimedEvent event_of(const Field& field) {
 void require_stops(const Field& field, const Certificate& certificate) {
   const auto& events = certificate.events;
   for (std::size_t i = 0; i < events.size(); ++i) {
+    if (is_of_friction(events[i].kind)) {
+      if (!certificate.scene.friction_static.ball().is_zero()) continue;
+      field.items()[i].refuse("is an event of dry friction", "the scene has none; give its friction");
+    }
     const auto& stop = certificate.scene.stops[index_of(events[i].side)];
     const bool of_rigid =
         events[i].kind == Kind::impact || events[i].kind == Kind::chatter || events[i].kind == Kind::rest;

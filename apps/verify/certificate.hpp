@@ -43,7 +43,8 @@ struct ClaimedEvent {
   Kind kind = Kind::impact;
   Side side = Side::lower;
   Claimed time, v;               ///< v: not of graze, chatter and rest
-  std::optional<Claimed> until;  ///< of chatter and rest
+  std::optional<Claimed> until;  ///< of chatter, rest and stick
+  std::optional<Claimed> x{};    ///< of reversal and stick
 };
 
 /// One line of a file, in the terms of the README.md of this folder.
@@ -56,6 +57,7 @@ struct Certificate {
   struct SceneNumbers {
     Number h, k, f, nu, load, phase;
     std::array<std::optional<StopNumbers>, 2> stops;
+    Number friction{}, friction_static{};
   };
   /// A special point of a family of scenes.
   struct Special {

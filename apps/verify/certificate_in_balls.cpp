@@ -33,7 +33,9 @@ BasicScene<T> scene_made(const Certificate::SceneNumbers& shape, const Of& of) {
                       of_scene(&In::nu),
                       of_scene(&In::load),
                       of_scene(&In::phase),
-                      {}};
+                      {},
+                      of_scene(&In::friction),
+                      of_scene(&In::friction_static)};
   for (std::size_t i = 0; i < 2; ++i) {
     if (!shape.stops[i]) continue;
     const auto of_stop = [&](Number At::*member) {

@@ -9,13 +9,14 @@ namespace verify {
 namespace {
 
 std::string named(std::size_t number, const ClaimedEvent& event) {
-  return "event " + std::to_string(number + 1) + ", " + name_of(event.kind) + " at the " + name_of(event.side) +
-         " stop";
+  const std::string name = "event " + std::to_string(number + 1) + ", " + name_of(event.kind);
+  return is_of_friction(event.kind) ? name : name + " at the " + name_of(event.side) + " stop";
 }
 
 std::string found_text(const Event& event) {
   if (event.kind == Kind::end) return "no further event";
-  return std::string(name_of(event.kind)) + " at the " + name_of(event.side) + " stop, time " + event.time.text();
+  const std::string place = is_of_friction(event.kind) ? "" : std::string(" at the ") + name_of(event.side) + " stop";
+  return name_of(event.kind) + place + ", time " + event.time.text();
 }
 
 double accuracy_of(const Claimed& claimed) { return claimed.error.ball().near() / 16; }
@@ -65,6 +66,7 @@ void Course::run() {
       throw Refuted(named(i, claims[i]) + ": claimed, found " + found_text(event));
     events_.push_back(event);
   }
+  if (motion_.is_sticking() && !claims.empty() && claims.back().kind == Kind::stick) return;
   if (motion_.is_resting()) {
     if (!claims.empty() && claims.back().kind == Kind::rest) return;
     throw Refuted("after the last event: a stop holds the mass, and no rest is claimed");
@@ -84,9 +86,10 @@ void compare_events(const Certificate& certificate, const std::vector<Event>& ev
     const ClaimedEvent& claim = certificate.events[i];
     const std::string name = named(i, claim);
     report.compare(name + ", time", events[i].time, claim.time);
+    if (claim.x) report.compare(name + ", x", events[i].x, *claim.x);
     if (claim.until)
       report.compare(name + ", until", events[i].until, *claim.until);
-    else if (claim.kind != Kind::graze)
+    else if (claim.kind != Kind::graze && claim.kind != Kind::reversal)
       report.compare(name + ", v", events[i].v, claim.v);
   }
 }
@@ -98,9 +101,14 @@ void compare_extrema(const Certificate& certificate, const Motion& motion, const
     if (!claim) continue;
     const auto& stop = scene.stops[index_of(side)];
     const bool meets =
-        stop && !stop->soft &&
-        (certificate.released == side || std::ranges::any_of(events, [&](auto& e) { return e.side == side; }));
+        stop && !stop->soft && (certificate.released == side || std::ranges::any_of(events, [&](auto& e) {
+                                  return e.side == side && !is_of_friction(e.kind);
+                                }));
     const bool rests = motion.stretches().empty();
+    if (rests && !events.empty() && events.front().kind == Kind::stick) {
+      report.compare(side == Side::upper ? "x_max" : "x_min", events.front().x, *claim);
+      continue;
+    }
     const Ball found = meets || rests ? scene.stop(rests && !events.empty() ? events.front().side : side).position
                                       : extremum(motion.stretches(), motion.other_places(), sign_of(side));
     report.compare(side == Side::upper ? "x_max" : "x_min", found, *claim);

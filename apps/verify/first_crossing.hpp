@@ -7,17 +7,20 @@
 
 namespace verify {
 
-/// A quantity that stays positive until an event: sign (x + q v - place).
+/// A quantity that stays positive until an event: sign (x + q v - place), or sign v.
 struct Margin {
   int sign;
   Ball place, q;
   int vanishing = 0;  ///< of it and its derivatives the first so many are exactly 0 at the start; the next is positive
+  bool of_velocity = false;
 
   [[nodiscard]] Ball of(const Ball& x, const Ball& v) const {
+    if (of_velocity) return Ball(sign) * v;
     return Ball(sign) * (q.is_zero() ? x - place : x + q * v - place);
   }
   /// A derivative of it, from those of the displacement of the same order and the next.
   [[nodiscard]] Ball derivative(const Ball& y, const Ball& next) const {
+    if (of_velocity) return Ball(sign) * next;
     return Ball(sign) * (q.is_zero() ? y : y + q * next);
   }
 };

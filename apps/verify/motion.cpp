@@ -20,6 +20,10 @@ const char* name_of(Kind kind) {
       return "chatter";
     case Kind::rest:
       return "rest";
+    case Kind::reversal:
+      return "reversal";
+    case Kind::stick:
+      return "stick";
     default:
       return "end";
   }
@@ -29,9 +33,16 @@ namespace {
 
 template <class Number>
 std::shared_ptr<const std::vector<BasicFlow<Number>>> flows_of(const BasicScene<Number>& scene) {
-  std::vector<BasicFlow<Number>> flows{BasicFlow<Number>::free(scene)};
-  for (const auto& stop : scene.stops)
-    flows.push_back(stop && stop->soft ? BasicFlow<Number>::in_contact(scene, *stop) : flows.front());
+  std::vector<BasicFlow<Number>> flows;
+  for (const int heading : {-1, 1}) {
+    BasicScene<Number> slip = scene;
+    slip.load = scene.load - Number(heading) * scene.friction;
+    const auto free = BasicFlow<Number>::free(slip);
+    flows.push_back(free);
+    for (const auto& stop : scene.stops)
+      flows.push_back(stop && stop->soft ? BasicFlow<Number>::in_contact(slip, *stop) : free);
+    if (!scene.is_rough()) break;
+  }
   return std::make_shared<const std::vector<BasicFlow<Number>>>(std::move(flows));
 }
 
@@ -48,6 +59,7 @@ Motion::Motion(const Scene& scene, const Family& family, const Start& start)
       flows_(flows_of(scene)),
       moving_flows_(flows_of(family.scene)),
       start_time_(start.time) {
+  if (scene.is_rough()) throw Undecided("special points under dry friction");
   begin_at(start, {Ball(0), Ball(0)});
 }
 
@@ -59,6 +71,7 @@ void Motion::begin_at(const Start& start, const Vector& width) {
   }
   set_ = MovingSet({start.x, start.v}, width), time_ = start.time;
   start_on_stop(start);
+  if (scene_.is_rough()) begin_rough(start);
 }
 
 /// The mode of a state at a stop's position or beyond it.
@@ -81,7 +94,8 @@ void Motion::start_on_stop(const Start& start) {
       return;
     }
     if (hull.y.is_zero()) {
-      const Ball press = scene_.pressing(side, sin_cos(scene_.nu * start.time + scene_.phase).first);
+      const Ball push = scene_.pressing(side, sin_cos(scene_.nu * start.time + scene_.phase).first);
+      const Ball press = stop.soft ? push : push + scene_.friction_static;
       if (press.is_negative()) return begin(Mode::free, side, 2);
       if (!press.is_positive()) throw Undecided("whether a stop holds the mass at the start");
       if (stop.soft) return begin(Mode::contact, side, stop.h_s.is_zero() ? 2 : 1);
@@ -94,10 +108,12 @@ void Motion::start_on_stop(const Start& start) {
 
 Motion::State Motion::state_of(const Vector& y) const {
   if (!on_surface_) return {time_.value, y.x, y.y};
+  if (still_) return {y.x, y.y, Ball(0)};
   return {y.x, q_.is_zero() ? place_.value : place_.value - q_.value * y.y, factor_.value * y.y};
 }
 
 std::vector<Margin> Motion::margins() const {
+  if (scene_.is_rough()) return rough_margins();
   std::vector<Margin> list;
   if (mode_ == Mode::free) {
     for (const Side side : {Side::lower, Side::upper})
@@ -118,6 +134,7 @@ std::vector<Margin> Motion::margins() const {
 /// The derivative of the state in flight, at a fixed time, by the coordinates of the set.
 Matrix Motion::into_flight(const Flow::Instant& start) const {
   if (!on_surface_) return {Ball(1), Ball(0), Ball(0), Ball(1)};
+  if (still_) return {Ball(0), Ball(1), -start.a, Ball(0)};
   return {-start.v, -q_.value, -start.a, factor_.value};
 }
 
@@ -135,6 +152,8 @@ Vector Motion::by_parameter_after(const Ball& duration, const Ball& slope) const
 Event Motion::next(const Ball& end) {
   if (resting_) throw Undecided("motion goes on while a stop holds the mass");
   if (hits_at_start_) return hit_at_start();
+  if (sticks_) return stay(end);
+  if (is_inelastic_) throw Undecided("whether friction holds the mass on the stop");
   const State state = state_of(set_.hull());
   const Flow::Flight all(flow(), state.time, state.x, state.v);
   const std::vector<Margin> list = margins();
@@ -145,6 +164,7 @@ Event Motion::next(const Ball& end) {
     const Ball instant = instant_of(all, margin, Ball::hull(crossing->from, crossing->to));
     if (instant < horizon) {
       stretches_.push_back({all, instant});
+      if (margin.of_velocity) return stop_moving(all, instant, margin, end);
       const Event event = move_to_event(all, margin, instant, crossing->margin);
       return event.kind == Kind::end ? next(end) : event;  // leaving the region beyond a stop is no event
     }
@@ -156,7 +176,7 @@ Event Motion::next(const Ball& end) {
 }
 
 bool Motion::is_clear_until(const Ball& time) const {
-  if (resting_ || hits_at_start_) return false;
+  if (resting_ || hits_at_start_ || sticks_) return false;
   const State state = state_of(set_.hull());
   const Ball horizon = time - state.time;
   if (!horizon.is_positive()) return horizon.is_negative();
@@ -169,7 +189,8 @@ bool Motion::is_clear_until(const Ball& time) const {
 }
 
 Event Motion::graze(Side side, const Ball& about, const Ball& end) {
-  if (resting_ || hits_at_start_ || mode_ == Mode::beyond || (mode_ == Mode::contact && side != side_))
+  if (scene_.is_rough() || resting_ || hits_at_start_ || mode_ == Mode::beyond ||
+      (mode_ == Mode::contact && side != side_))
     throw Undecided("a graze of a stop that the mass isn't before");
   const State state = state_of(set_.hull());
   const Flow::Flight all(flow(), state.time, state.x, state.v);
@@ -208,10 +229,12 @@ Event Motion::hit_at_start() {
   hits_at_start_ = false;
   const Stop& stop = scene_.stop(side_);
   const Ball v = set_.centre().y, time = time_.value;
+  heading_ = scene_.is_rough() ? sign_of(side_) : 0;
   if (stop.soft) {
     begin(Mode::contact, side_, stop.h_s.is_zero() ? 1 : 0);
     return {Kind::touch, side_, time, v, Ball(0)};
   }
+  leave_rough(stop);
   set_ = MovingSet({stop.position, -stop.R * v}, {Ball(0), Ball(0)});
   begin(Mode::free, side_, stop.R.is_zero() ? 2 : 1);
   return {Kind::impact, side_, time, v, Ball(0)};
@@ -223,7 +246,7 @@ void Motion::move_to_end(const Flow::Flight& all, const Ball& end, const Ball& s
   const Flow::Instant image = Flow::Flight(flow(), centre.time, centre.x, centre.v).at(end - centre.time);
   const Matrix derivative = all.derivative(end - hull.time) * into_flight(all.at(Ball(0)));
   set_.move({image.x, image.v}, derivative, by_parameter_after(end - hull.time, slope));
-  on_surface_ = false, time_ = end;
+  on_surface_ = still_ = false, still_for_ = 0, time_ = end;
   const Vector state = set_.hull();
   if (!state.x.is_finite() || !state.y.is_finite()) throw Undecided("a state whose bounds are lost");
 }
@@ -253,7 +276,7 @@ Event Motion::move_to_event(const Flow::Flight& all, const Margin& margin, const
 
 /// The event that crossing a margin is, and the mode after it.
 Event Motion::pass(std::size_t index, Side side) {
-  on_surface_ = true, factor_ = Dual(1);
+  on_surface_ = true, still_ = false, still_for_ = 0, factor_ = Dual(1);
   const Vector hull = set_.hull();
   if (!hull.x.is_finite() || !hull.y.is_finite()) throw Undecided("an event whose bounds are lost");
   Event event{Kind::end, side, hull.x, hull.y, Ball(0)};
@@ -267,6 +290,7 @@ Event Motion::pass(std::size_t index, Side side) {
     }
     event.kind = Kind::impact, factor_ = family_ != nullptr ? -family_->scene.stop(side).R : Dual(-stop.R);
     begin(Mode::free, event.side, stop.R.is_zero() ? 2 : 1);
+    leave_rough(stop);
     return event;
   }
   if (mode_ == Mode::contact) {

@@ -8,7 +8,7 @@
 
 namespace verify {
 
-enum class Kind { impact, touch, separation, renewal, graze, chatter, rest, end };
+enum class Kind { impact, touch, separation, renewal, graze, reversal, chatter, rest, stick, end };
 
 [[nodiscard]] const char* name_of(Kind kind);
 
@@ -22,10 +22,13 @@ struct Event {
   Kind kind = Kind::end;
   Side side = Side::lower;
   Ball time, v;  ///< v: before an impact
-  Ball until;    ///< of a chatter or a rest
+  Ball until;    ///< of a chatter, a rest or a stick
   Ball gap{};    ///< of a graze: the least that is left to the stop, or of its force; below 0 the motion passes through
   Slopes slopes{};
+  Ball x{};  ///< of a reversal or a stick: the place
 };
+
+[[nodiscard]] inline bool is_of_friction(Kind kind) { return kind == Kind::reversal || kind == Kind::stick; }
 
 /// The state that a motion starts from.
 struct Start {
@@ -64,6 +67,7 @@ class Motion {
   Event finish_rest(const Ball& end);
 
   [[nodiscard]] bool is_resting() const { return resting_; }
+  [[nodiscard]] bool is_sticking() const { return sticks_; }              ///< up to the end
   [[nodiscard]] Vector state() const { return set_.hull(); }              ///< x and v at the end
   [[nodiscard]] Vector centre() const { return set_.image_of_centre(); }  ///< x and v at the end of the middle one
   [[nodiscard]] Matrix derivative() const { return set_.derivative(); }   ///< of the state at the end by the start
@@ -91,8 +95,21 @@ class Motion {
     Ball time, x, v;
   };
 
-  [[nodiscard]] std::size_t number_of_flow() const { return mode_ == Mode::contact ? 1 + index_of(side_) : 0; }
+  [[nodiscard]] std::size_t number_of_flow() const {
+    return (mode_ == Mode::contact ? 1 + index_of(side_) : 0) + (heading_ > 0 ? 3 : 0);
+  }
   void begin_at(const Start& start, const Vector& width);
+  void begin_rough(const Start& start);
+  void become_still(const Ball& time);
+  struct Spring {
+    Ball k, load;
+  };
+  [[nodiscard]] Spring spring() const;
+  [[nodiscard]] int way_of_push() const;
+  [[nodiscard]] std::vector<Margin> rough_margins() const;
+  Event stop_moving(const Flow::Flight& all, const Ball& instant, const Margin& margin, const Ball& end);
+  Event stay(const Ball& end);
+  void leave_rough(const Stop& stop);
   [[nodiscard]] State state_of(const Vector& coordinates) const;
   [[nodiscard]] Matrix into_flight(const Flow::Instant& start) const;
   Event hit_at_start();
@@ -111,10 +128,16 @@ class Motion {
 
   const Scene& scene_;
   const Family* family_ = nullptr;
-  std::shared_ptr<const std::vector<Flow>> flows_;  ///< free, in contact with the lower stop, with the upper one
+  std::shared_ptr<const std::vector<Flow>> flows_;  ///< free, in contact with the lower stop, with the upper one; with
+                                                    ///< friction of slips down, then the same of slips up
   std::shared_ptr<const std::vector<BasicFlow<Dual>>> moving_flows_;  ///< likewise, of a family
   MovingSet set_;  ///< in (x, v) at `time_`, or in (time, v) on the surface of an event
   bool on_surface_ = false;
+  bool still_ = false;                 ///< that surface is x' = 0, with the coordinates (time, x)
+  int heading_ = 0;                    ///< with friction: the sign of the velocity
+  int still_for_ = 0;                  ///< `Margin::vanishing` of the velocity
+  bool sticks_ = false;                ///< friction holds the mass
+  bool is_inelastic_ = false;          ///< the last impact took all speed, and friction may hold the mass
   Dual time_, place_, q_, factor_{1};  ///< surface: x + q v = place; then the velocity is multiplied by the factor
   Mode mode_ = Mode::free;
   Side side_ = Side::lower;  ///< of the stop of the mode, or that was left

@@ -134,7 +134,7 @@ void require_same_release(const Certificate& certificate, const Course& course, 
 }
 
 std::optional<Response> steady_response(const Certificate& certificate, const Scene& scene) {
-  if (certificate.released || !certificate.events.empty()) return std::nullopt;
+  if (scene.is_rough() || certificate.released || !certificate.events.empty()) return std::nullopt;
   const Start start = certificate.start_in_balls();
   const Motion motion(scene, start, {Ball(0), Ball(0)});
   const auto response = motion.flow().response();

@@ -13,7 +13,9 @@ std::vector<Event> comparable(const std::vector<Event>& events) {
   std::vector<Event> list;
   for (const Event& event : events) {
     if (event.kind == Kind::chatter)
-      while (!list.empty() && list.back().kind == Kind::impact && list.back().side == event.side) list.pop_back();
+      while (!list.empty() && ((list.back().kind == Kind::impact && list.back().side == event.side) ||
+                               list.back().kind == Kind::reversal))
+        list.pop_back();
     list.push_back(event);
     if (event.kind == Kind::chatter) list.back().time = event.until;
   }
@@ -69,7 +71,8 @@ bool same_word(const std::string& claimed, const std::string& found) {
 /// Motion without impacts that starts on a stop, or beyond a soft one, stays there.
 std::string word_without_impacts(const std::vector<Event>& events, const Scene& scene, const Ball& x) {
   const auto stays = [](Side side) { return side == Side::upper ? "(U)" : "(L)"; };
-  if (!events.empty()) return stays(events.front().side);
+  const auto on_stop = std::ranges::find_if(events, [](const Event& event) { return !is_of_friction(event.kind); });
+  if (on_stop != events.end()) return stays(on_stop->side);
   for (const Side side : {Side::lower, Side::upper}) {
     const auto& stop = scene.stops[index_of(side)];
     if (!stop) continue;
@@ -144,7 +147,7 @@ bool differs_from_mirror(const Certificate& certificate, const std::vector<Event
   const Ball half = length_of(scene, certificate.periods) / Ball(2);
   for (std::size_t i = 0; i < shift; ++i) {
     const Event &one = events[i], &other = events[i + shift];
-    if (one.kind != other.kind || one.side == other.side) return true;
+    if (one.kind != other.kind || (one.side == other.side && !is_of_friction(one.kind))) return true;
     if (!other.time.overlaps(one.time + half) || !one.v.overlaps(-other.v)) return true;
     if (one.kind >= Kind::chatter && !other.until.overlaps(one.until + half)) return true;
   }

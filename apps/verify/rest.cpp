@@ -7,7 +7,8 @@ namespace {
 /// force that presses.
 template <class Number>
 Number phase_of_release(const BasicScene<Number>& scene, Side side) {
-  const Number u = (scene.k * scene.stop(side).position - scene.load) / scene.f;
+  const Number level = Number(-sign_of(side)) * scene.friction_static;  // friction holds it against a pull away
+  const Number u = (scene.k * scene.stop(side).position - scene.load + level) / scene.f;
   if (!(abs(u) < Number(1))) throw Undecided("whether the force ever releases the mass");
   const bool falls = (scene.f * Number(sign_of(side))).is_positive();
   return falls ? Number(Ball::pi()) - asin(u) : asin(u);
@@ -32,46 +33,57 @@ void Motion::release(Side side, const Ball& after, bool nearest) {
     time_ = time_of_phase(scene, phase_of_release(scene, side), turns_), slope = scene.stop(side).position.slope;
   }
   set_.collapse({scene_.stop(side).position, Ball(0)}, {slope, Ball(0)});
-  on_surface_ = false, was_exact_ = true, resting_ = false;
+  on_surface_ = still_ = false, was_exact_ = true, resting_ = false;
   begin(Mode::free, side, 3);
+  if (!scene_.is_rough()) return;
+  heading_ = -sign_of(side), is_inelastic_ = false;
+  still_for_ = (scene_.friction_static - scene_.friction).is_zero() ? 2 : 1;
 }
 
 /// The infinitely many rebounds from one at speed w on: with a- <= y'' <= a+ towards the stop a flight lasts
 /// 2w/a+ ... 2w/a-, rises to w^2/2a- at most, and returns with w (a-/a+)^(1/2) ... w (a+/a-)^(1/2), so the times are
-/// within geometric series. Throws Undecided if that isn't proved.
+/// within geometric series. Friction mu slows the way up and the way down, so these have y'' + mu and y'' - mu. Throws
+/// Undecided if that isn't proved.
 Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) const {
   const Stop& stop = scene_.stop(side);
   if (w.is_zero()) return {Ball(0), Ball(0)};
   const auto press = [&](const Ball& at) {
     return scene_.pressing(side, sin_cos(scene_.nu * at + scene_.phase).first);
   };
+  const Ball& mu = scene_.friction;
   const Ball now = press(time), fastest = Ball(2) * w.upper();
-  if (!now.is_positive() || !(stop.R < Ball(1))) throw Undecided("whether a chatter ends");
-  const Ball longest = (Ball(4) * w / (now * (Ball(1) - stop.R))).upper();
+  if (!(now > scene_.friction_static)) throw Undecided("whether a chatter ends");
+  const Ball up = now + mu, down = now - mu, returned = stop.R * sqrt(down / up);
+  if (!(returned < Ball(1))) throw Undecided("whether a chatter ends");
+  const Ball flight = (w / up + w / sqrt(up * down)).upper();
+  const Ball longest = (Ball(2) * flight / (Ball(1) - returned)).upper();
   const Ball during = press(time + Ball::hull(Ball(0), longest));
   const Ball height = (square(w) / now).upper();  // twice that of the first flight under the present force
   const Ball other = Ball::around_zero(Ball(2) * scene_.h * fastest + abs(scene_.k) * height);
   const Ball least = (during + other).lower(), most = (during + other).upper();
-  if (!least.is_positive() || !(most < Ball(4) * least) || !(square(w) / (Ball(2) * least) <= height))
+  if (!(least > scene_.friction_static) || !(most < Ball(4) * least) || !(square(w) / (Ball(2) * least) <= height))
     throw Undecided("whether a chatter ends");
   if (const auto& far = scene_.stops[index_of(opposite(side))])
     if (!(height < abs(far->position - stop.position))) throw Undecided("whether a chatter reaches the other stop");
-  const Ball slowest = stop.R * sqrt(most / least), quickest = stop.R * sqrt(least / most);
+  // up against a + mu, from a height of w^2/2(a + mu) down with a - mu
+  const Ball slowest = stop.R * sqrt((most - mu) / (least + mu)), quickest = stop.R * sqrt((least - mu) / (most + mu));
   if (!(slowest < Ball(1))) throw Undecided("whether a chatter ends");
-  const Ball lasts = Ball(2) * w / least / (Ball(1) - slowest);
+  const auto flight_in = [&](const Ball& a) { return w / (a + mu) + w / sqrt((a + mu) * (a - mu)); };
+  const Ball lasts = flight_in(least) / (Ball(1) - slowest);
   if (!(lasts <= longest)) throw Undecided("whether a chatter ends");
-  return {Ball::hull(Ball(2) * w / most / (Ball(1) - quickest), lasts), height};
+  return {Ball::hull(flight_in(most) / (Ball(1) - quickest), lasts), height};
 }
 
 Event Motion::finish_chatter(double accuracy, const Ball& latest, double height) {
   const Side side = side_;
   if (mode_ != Mode::free || vanishing_ == 0) throw Undecided("a chatter begins with an impact");
   const Ball begin_time = state_of(set_.hull()).time;
+  bool rebounds_now = true;  // else it turns back at its peak, by friction
   for (int impacts = 0; impacts < 4000; ++impacts) {
     const State state = state_of(set_.hull());
     std::optional<Rebounds> left;
     try {
-      left = rebounds(side, state.time, abs(state.v));
+      if (rebounds_now) left = rebounds(side, state.time, abs(state.v));
     } catch (const Undecided&) {
       if (impacts > 1000) throw;
     }
@@ -80,11 +92,13 @@ Event Motion::finish_chatter(double accuracy, const Ball& latest, double height)
       if (until.radius() <= accuracy && left->height <= Ball(height)) {
         const Ball place = scene_.stop(side).position;
         other_places_.push_back(Ball::hull(place, place - Ball(sign_of(side)) * left->height));
-        resting_ = true, rest_begin_ = until;
+        resting_ = true, is_inelastic_ = false, rest_begin_ = until;
         return {Kind::chatter, side, begin_time, Ball(0), until};
       }
     }
     const Event event = next((state.time + Ball(100) * scene_.period()).upper());
+    rebounds_now = event.kind != Kind::reversal;
+    if (!rebounds_now && event.time < latest) continue;
     if (event.kind != Kind::impact || event.side != side || event.time > latest) return event;
   }
   throw Undecided("the end of a chatter");
@@ -95,7 +109,8 @@ Event Motion::finish_rest(const Ball& end) {
   Event event{Kind::rest, side_, rest_begin_, Ball(0), end};
   const Side side = side_;
   const Stop& stop = scene_.stop(side);
-  const Ball least = Ball(sign_of(side)) * (scene_.load - scene_.k * stop.position) - abs(scene_.f);
+  const Ball least =
+      Ball(sign_of(side)) * (scene_.load - scene_.k * stop.position) + scene_.friction_static - abs(scene_.f);
   if (least.is_positive()) {  // for ever
     set_.collapse({stop.position, Ball(0)}, {Ball(0), Ball(0)});
     time_ = end, on_surface_ = false, was_exact_ = true;

@@ -29,15 +29,17 @@ struct BasicStop {
   [[nodiscard]] Number q() const { return soft ? Number(2) * h_s / kappa : Number(0); }
 };
 
-/// x'' + 2h x' + k x = f sin(nu tau + phase) + load between two stops.
+/// x'' + 2h x' + k x + friction sgn x' = f sin(nu tau + phase) + load between two stops.
 template <class Number>
 struct BasicScene {
   Number h, k, f, nu, load, phase;
   std::array<std::optional<BasicStop<Number>>, 2> stops;  ///< [side]
+  Number friction{0}, friction_static{0};                 ///< of a mass that moves, and the most that holds a still one
 
   [[nodiscard]] const BasicStop<Number>& stop(Side side) const { return *stops[index_of(side)]; }
+  [[nodiscard]] bool is_rough() const { return !friction_static.is_zero(); }
   [[nodiscard]] Number period() const { return Number(2) * Number(Ball::pi()) / nu; }
-  /// The force that presses a mass at rest into a stop (eq. 22), at a phase whose sine is given.
+  /// The force that presses a mass at rest into a stop (eq. 22), at a phase whose sine is given; friction apart.
   [[nodiscard]] Number pressing(Side side, const Number& sine) const {
     return Number(sign_of(side)) * (f * sine + load - k * stop(side).position);
   }

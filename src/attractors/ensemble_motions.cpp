@@ -30,6 +30,7 @@ bool is_possible(const point::Problem& problem, const Ending& ending) {
 /// A mass that friction holds for good.
 Motion stuck(const point::Problem& problem, const PhasePoint& state) {
   Motion motion{.periodic = standstill(problem, state.x), .state = state, .sticks = true};
+  motion.periodic->word = observables::ImpactWord::stuck;
   if (problem.oscillator.forcing != 0) motion.periodic->regime = "0/1";
   return motion;
 }

@@ -5,10 +5,10 @@
 #include <deque>
 #include <functional>
 
+#include "branches/halt_end.hpp"
 #include "branches/resting/resting_branch.hpp"
 #include "branches/start.hpp"
 #include "branches/walk/special_points.hpp"
-#include "branches/walk/touch.hpp"
 
 namespace clatter::branches {
 namespace {
@@ -62,7 +62,7 @@ class Follower {
     Vector axis(equations.unknowns(), 0.0);
     axis.back() = 1;
     if (from.special) {
-      const auto first = first_step(equations, start, from);
+      const auto first = first_step(equations, start, from, settings_.tolerance);
       if (!first) return record_.fail(record_.point(equations, start), no_step_off);
       if (is_left_out(from, *first)) return record_.leave_out(*from.special);
       record_.meet(*from.special, record_.branch());
@@ -118,23 +118,6 @@ class Follower {
     return record_.leave_out(special), true;
   }
 
-  /// The direction from a special point into a branch that begins there, in which it is motion between the stops.
-  [[nodiscard]] std::optional<Vector> first_step(const OrbitEquations& equations, const CurvePoint& start,
-                                                 const Waiting& from) const {
-    std::vector<Vector> tried;
-    if (from.direction) {
-      tried = {*from.direction};
-    } else {
-      Vector axis(equations.unknowns(), from.heading == 0 ? 1.0 : 0.0);
-      if (from.heading != 0) axis.back() = from.heading;
-      const auto along = tangent(equations, start.at, axis);
-      if (!along) return std::nullopt;
-      tried = {*along};
-      if (from.heading == 0) tried.push_back(sum(*along, -2.0, *along));
-    }
-    return direction_into_motion(equations, start.at, tried, settings_.tolerance);
-  }
-
   void walk(const OrbitEquations& equations, const CurvePoint& start, std::optional<std::size_t> from) {
     Walk walk(equations, start, {settings_.tolerance, settings_.largest_step});
     BranchPoint last = record_.point(equations, start);
@@ -142,7 +125,7 @@ class Follower {
     for (;;) {
       if (record_.is_full()) return record_.fail(last, max_points_spent);
       const auto next = walk.next();
-      if (!next) return record_.fail(last, no_step);
+      if (!next) return end_without_step(equations, last, walk.here());
       const double step = next->arclength - walk.here().arclength;
       if (!in_range(parameter(equations.scene_at(next->at)))) return end_of_range(equations, walk, step, from);
       if (violation(equations, next->at)) return end_in_graze(equations, walk, step, from);
@@ -263,33 +246,56 @@ class Follower {
   /// The branch ends within a step, at a graze.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step,
                     const std::optional<std::size_t>& from) {
-    const std::optional<Touch> touch = touch_within(equations, walk, step);
-    if (!touch) return record_.fail(record_.point(equations, walk.here()), no_step);
-    if (special_between(equations, walk, touch->last_good.arclength - walk.here().arclength, from))
-      return record_.end(record_.point(equations, touch->last_good), "born");
-    if (touch->appears && equations.shape().size() > 0 && ends_in_rest(equations, *touch, step)) return;
-    const auto exact = exact_graze(any_equations(), equations.scene_at(touch->beyond.at), touch->graze(),
+    const std::optional<Narrowed> between = narrowed(equations, walk, step);
+    if (!between) return record_.fail(record_.point(equations, walk.here()), no_step);
+    if (const auto change = halt_change(equations, *between))
+      return end_in_halt(equations, walk, *between, *change, from);
+    const Touch touch = touch_of(equations, *between);
+    if (special_between(equations, walk, touch.last_good.arclength - walk.here().arclength, from))
+      return record_.end(record_.point(equations, touch.last_good), "born");
+    if (touch.appears && !touch.halts && equations.shape().size() > 0 && ends_in_rest(equations, touch, step)) return;
+    const auto exact = exact_graze(any_equations(), equations.scene_at(touch.beyond.at), touch.graze(),
                                    1e-3 * speed_unit_, symmetric_, 10 * step, settings_.tolerance);
     if (exact && exact->joins) return end_on(*exact, equations.shape());
-    BranchPoint last = record_.point(equations, touch->last_good);
+    BranchPoint last = record_.point(equations, touch.last_good);
     if (!exact) return record_.add(last), record_.fail(last, no_graze);
-    const Orbit with = exact->orbit, without = with.without(touch->impact);
-    last.scene = exact->scene, last.orbit = touch->appears ? without : with;
+    const Orbit with = exact->orbit,
+                without = touch.halts ? halting_at_stop(exact->scene, with, touch.impact) : with.without(touch.impact);
+    last.scene = exact->scene, last.orbit = touch.appears ? without : with;
     record_.add(last);
-    if (resting().waits_beyond(last, with.impacts[touch->impact].side, generation_))
+    if (!touch.halts && resting().waits_beyond(last, with.impacts[touch.impact].side, generation_))
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;
-    const auto [special, is_new] = record_.note(SpecialKind::graze, at, touch->graze().condition);
+    const auto [special, is_new] = record_.note(SpecialKind::graze, at, touch.graze().condition);
     record_.end(last, "graze");
     if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
-    const int heading = touch->last_good.tangent.back() < 0 ? -1 : 1;
-    if (touch->turns)
-      waiting_.push_back({at.scene, turned(with, touch->impact), {}, special, generation_});
-    else if (touch->appears)
-      wait_with(at.scene, with, touch->impact, special, heading);
+    const int heading = touch.last_good.tangent.back() < 0 ? -1 : 1;
+    if (touch.turns)
+      waiting_.push_back({at.scene, turned(with, touch.impact), {}, special, generation_});
+    else if (touch.appears)
+      wait_with(at.scene, with, touch.impact, special, heading);
     else
       wait_without(at.scene, without, special, heading);
+  }
+
+  /// No step leads on: under dry friction, as a slip vanishes.
+  void end_without_step(const OrbitEquations& equations, const BranchPoint& last, const CurvePoint& here) {
+    const auto change = vanishing_slip(equations, here);
+    if (!change) return record_.fail(last, no_step);
+    end_in_change({last, equations.scene_at(here.at), settings_.largest_step}, *change);
+  }
+  /// The branch ends within a step, as friction begins to hold the mass somewhere, or no longer does.
+  void end_in_halt(const OrbitEquations& equations, const Walk& walk, const Narrowed& between, const HaltChange& change,
+                   const std::optional<std::size_t>& from) {
+    const BranchPoint last = record_.point(equations, between.last_good);
+    if (special_between(equations, walk, between.last_good.arclength - walk.here().arclength, from))
+      return record_.end(last, "born");
+    const double step = between.beyond.arclength - walk.here().arclength;
+    end_in_change({last, equations.scene_at(between.beyond.at), 10 * step}, change);
+  }
+  void end_in_change(const NearEnd& end, const HaltChange& change) {
+    branches::end_in_change(any_equations(), settings_.tolerance, end, change, record_, waiting_, generation_);
   }
 
   /// The branch ends on a motion that repeats sooner, or is symmetric, as that grazes soft stops, whose dampers change

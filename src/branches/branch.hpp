@@ -24,12 +24,15 @@ enum class SpecialKind : std::uint8_t {
   symmetry_breaking,
   graze,
   chatter_limit,     ///< a chatter ends in rest just at the release: beyond it the mass doesn't rest
-  release_tangency,  ///< beyond it the mass is never released
+  release_tangency,  ///< beyond it the mass is never released, or earlier
   impact_speed,      ///< largest along the branch
   impact_power,      ///< likewise
   harmonic,          ///< likewise
   resonant_graze,    ///< of a curve: an impact that vanishes on curves of multipliers +1 and -1
-  cusp               ///< of a curve: two special points meet and vanish
+  cusp,              ///< of a curve: two special points meet and vanish
+  crossing_sliding,  ///< under dry friction: a reversal of a slip becomes a stick, or the other way round
+  grazing_sliding,   ///< likewise: a slip whose velocity just comes to 0 gains a stick, or the other way round
+  switching_sliding  ///< likewise: a reversal and the slip to a stick vanish, or appear before it
 };
 [[nodiscard]] std::string_view name_of(SpecialKind kind);
 /// What may be born there, if anything.
@@ -67,6 +70,9 @@ constexpr std::string_view max_points_spent = "branch.max_points is spent; raise
 constexpr std::string_view no_step = "no step leads on; try a smaller branch.largest_step, or begin beyond";
 constexpr std::string_view no_graze =
     "a contact that no graze explains; try a smaller branch.largest_step, or begin beyond";
+
+constexpr std::string_view no_halt_change =
+    "a halt that friction doesn't explain; try a smaller branch.largest_step, or begin beyond";
 
 struct Branches {
   std::vector<BranchPoint> points;  ///< branch after branch, each in the order of its arclength

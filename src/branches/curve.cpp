@@ -63,6 +63,12 @@ class CurveFollower {
   Branches run() {
     if (settings_.along.role() == Role::shaking && settings_.across->role() == Role::shaking)
       throw StartError("stops and base can't be shaken at once; expected another branch.across");
+    const bool is_level = settings_.along.role() == Role::friction || settings_.across->role() == Role::friction;
+    if (has_friction(problem_.friction) || is_level)
+      throw StartError(
+          "no curve of special points is followed under dry friction; leave out branch.across and branch.curve, and "
+          "follow branches at several values of " +
+          std::string(settings_.across->key()));
     require_start_in_range(problem_, *settings_.across, settings_.across_range, "across");
     Branches along = follow_branches(problem_, settings_);
     std::erase_if(along.ends, [](const BranchEnd& end) { return !end.failed; });

@@ -55,6 +55,12 @@ struct SceneNumbers : BasicScene<Number> {
   [[nodiscard]] motion::SoftStop<Number> soft_stop(Side stop) const {
     return motion::soft_stop_at<Number>(this->stops, stop);
   }
+  /// The only place that motion may be symmetric about; without a spring it has to lie between the stops.
+  [[nodiscard]] Number middle() const {
+    const auto& [lower, upper] = std::pair(this->stops.lower, this->stops.upper);
+    if (this->oscillator.stiffness != 0) return this->oscillator.load / this->oscillator.stiffness;
+    return is_finite(lower) && is_finite(upper) ? Number((lower + upper) / 2) : Number(0);
+  }
   /// In the frame of what is shaken.
   [[nodiscard]] LeadingForce<Number> force() const { return force_in_frame(this->oscillator, this->shaking); }
 };

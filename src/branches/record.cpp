@@ -8,7 +8,7 @@
 namespace clatter::branches {
 namespace {
 
-constexpr std::array<std::string_view, 11> special_names{"fold",
+constexpr std::array<std::string_view, 14> special_names{"fold",
                                                          "flip",
                                                          "symmetry breaking",
                                                          "graze",
@@ -18,7 +18,10 @@ constexpr std::array<std::string_view, 11> special_names{"fold",
                                                          "maximum impact_power",
                                                          "maximum harmonic",
                                                          "resonant graze",
-                                                         "cusp"};
+                                                         "cusp",
+                                                         "crossing-sliding",
+                                                         "grazing-sliding",
+                                                         "switching-sliding"};
 
 }  // namespace
 

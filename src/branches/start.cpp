@@ -92,6 +92,46 @@ Orbit soft_start(const point::Problem& given, const point::Problem& problem, con
   return orbit->half_if_same(1e-6, symmetric);
 }
 
+/// Throws StartError if branches can't be followed under the dry friction of a scene.
+void require_friction_to_follow(const point::Problem& problem) {
+  if (has_friction(problem.friction) && has_soft_stop(problem.stops))
+    throw StartError(
+        "branches of motion under dry friction are followed between rigid stops alone, as their equations have no "
+        "halts within soft ones; sweep the parameter with follow instead, or leave out friction or stop_stiffness");
+}
+
+/// Gives each halt the side that the mass slips to from there: that of the next event.
+void set_sides(const point::Problem& problem, Orbit& orbit) {
+  const SceneNumbers<double> p{problem};
+  const auto place = [&](const OrbitImpact& event) {
+    return halts(event.event) ? event.place : p.position(event.side) - p.middle();
+  };
+  for (std::size_t i = 0; i < orbit.size(); ++i)
+    if (halts(orbit.impacts[i].event))
+      orbit.impacts[i].side = place(orbit.impact(i + 1)) > place(orbit.impact(i)) ? Side::upper : Side::lower;
+}
+
+/// Under dry friction. If the run begins within a stick, it ends in it, too: that is one.
+Orbit slipping_start(const point::Problem& problem, const MotionStart& near, bool symmetric) {
+  auto orbit = event_run(attractors::started(problem, near.state, near.phase), static_cast<std::size_t>(near.periods));
+  if (!orbit) throw StartError("the run from the start fails");
+  std::vector<OrbitImpact>& events = orbit->impacts;
+  for (const OrbitImpact& event : events)
+    if (event.event == EventKind::impact && event.before == 0)
+      throw StartError(
+          "the motion at the start rests on a stop under dry friction, and no branch of such motion is followed; begin "
+          "where it doesn't rest, or sweep the parameter with follow instead");
+  if (events.size() > 1 && events.front().event == EventKind::stick && events.front().phase == 0)
+    events.erase(events.begin());
+  if (events.empty() || (events.size() == 1 && events[0].event == EventKind::stick))
+    throw StartError(
+        "dry friction holds the mass at the start for good; begin where the force overcomes it, or set x0 and v0 "
+        "nearer to a motion");
+  for (OrbitImpact& event : events) event.phase += near.phase, event.rest = 0;
+  set_sides(problem, *orbit);
+  return orbit->half_if_same(1e-6, symmetric);
+}
+
 /// "stop_stiffness_lower" of a stop, or the key of both.
 std::string with_side(const std::string& key, Side side) {
   return side == Side::none ? key : key + (side == Side::lower ? "_lower" : "_upper");
@@ -123,6 +163,23 @@ void require_equal_stops(const FollowedScene& scene, Parameter parameter, const 
     throw StartError(asked + " moves both stops, which aren't symmetric; take stop_lower or stop_upper");
   const std::string key(parameter.key());
   throw StartError(asked + " changes both stops, which differ; take " + key + "_lower or " + key + "_upper");
+}
+
+/// Throws StartError if a level of dry friction can't be followed: without friction the motion at the start has no
+/// halts, and the static level is no less than the kinetic one.
+void require_levels_of_friction(const FollowedScene& scene, Parameter parameter, const std::array<double, 2>& range,
+                                const std::string& interval) {
+  if (parameter.role() != Role::friction) return;
+  if (!has_friction(scene.friction))
+    throw StartError("there is no dry friction at the start, so the motion there has none of its halts; give " +
+                     key_in_section(scene, parameter) + " a value above 0, within " + interval);
+  const Friction& given = scene.given.friction;
+  if (parameter == Parameter("friction") && given.static_level != 0 && range[1] > given.static_level)
+    throw StartError(interval +
+                     " reaches friction_static; end it there, or give no friction_static: it is then equal "
+                     "to friction");
+  if (parameter == Parameter("friction_static") && range[0] < given.kinetic)
+    throw StartError(interval + " reaches below friction; begin it there");
 }
 
 /// Throws StartError at a start at which derivatives by a parameter don't exist, as the formulas change there.
@@ -160,6 +217,7 @@ void require_start_in_range(const FollowedScene& scene, Parameter parameter, con
   if (is_place && parameter.side() == Side::upper && range[0] <= stops.lower && std::isfinite(range[0]))
     throw StartError(interval + " reaches the lower stop; begin it above stop_lower");
   require_derivatives(scene, parameter);
+  require_levels_of_friction(scene, parameter, range, interval);
   GivenScene shaken = scene.given;
   set(shaken, parameter, 1.0);
   if (shaken.shaking.stops != 0 && shaken.shaking.base != 0)
@@ -204,10 +262,12 @@ Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric
   point::Problem problem = given;
   sweep::enter_shaken_frame(problem);
   const bool is_si = given.units.is_si;
+  require_friction_to_follow(problem);
   if (problem.oscillator.forcing == 0)
     throw StartError(std::string("a branch needs a force, whose periods it counts: set ") +
                      (is_si ? "machine.force" : "scene.f"));
   const MotionStart near = period == 0 ? settled(problem) : near_start(problem, period);
+  if (has_friction(problem.friction)) return slipping_start(problem, near, symmetric);
   if (has_soft_stop(problem.stops)) return soft_start(given, problem, near, symmetric);
   // Newton's method on the map of the periods; unless a contact appears or vanishes on the way it gets there
   const auto motion =
@@ -226,6 +286,7 @@ Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric
 
 std::optional<Orbit> event_run(const point::Problem& problem, std::size_t periods) {
   const auto motion = point::ExactMotion::of(problem);
+  const double middle = SceneNumbers<double>{problem}.middle();
   point::MotionRecorder recorder(motion->stops());
   recorder.keep_events();
   motion::State<double> state = motion->start();
@@ -236,7 +297,8 @@ std::optional<Orbit> event_run(const point::Problem& problem, std::size_t period
   for (const motion::Event& event : recorder.events) {
     const bool rests = event.kind == EventKind::rest || event.kind == EventKind::chatter;
     orbit.impacts.push_back({event.side, nu * event.time, event.velocity, nu * event.length,
-                             rests ? EventKind::impact : event.kind});  // one without speed
+                             rests ? EventKind::impact : event.kind,  // one without speed
+                             halts(event.kind) ? event.place - middle : 0.0});
   }
   if (orbit.size() == 0)
     for (const Side side : {Side::lower, Side::upper}) {

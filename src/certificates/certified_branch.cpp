@@ -149,7 +149,7 @@ CertifiedPoint certified(const SpecialPoint& special, Parameter along, const Sta
   const auto graze = grazing(special);
   const FollowedScene& scene = special.at.scene;
   const Orbit& kept = special.at.orbit;
-  if (!kind || kept.rests() || (special.kind == SpecialKind::graze) != graze.has_value()) return found;
+  if (!kind || kept.rests() || has_friction(scene.friction) || (special.kind == SpecialKind::graze) != graze.has_value()) return found;
   const Orbit orbit = graze ? kept.without(*graze) : kept;
   const Begin begin = begin_of(scene, orbit, graze ? std::optional(kept.impacts[*graze].phase) : std::nullopt);
   const Problem problem = problem_from(start, scene, begin.state, 0.0);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -149,14 +150,18 @@ template <typename Test>
 bool given_everywhere(const Settings& settings, Parameter parameter, Test test) {
   return settings.given(parameter) != nullptr && everywhere(settings, parameter, test);
 }
-/// Damping brings motion that nothing drives to a standstill, which has no period and passes nothing.
-bool comes_to_a_standstill(const Settings& settings) {
-  const auto damps = [&](Parameter parameter) {
+/// Motion that nothing drives comes to a standstill, which has no period and passes nothing, if one of the parameters
+/// brakes it at every point.
+bool comes_to_a_standstill(const Settings& settings, std::initializer_list<Parameter> brakes) {
+  const auto brakes_it = [&](Parameter parameter) {
     return given_everywhere(settings, parameter, [](double value) { return value > 0 && std::isfinite(value); });
   };
-  return steady(settings) && unforced(settings) &&
-         (damps("h") || damps("damping") || damps("damping_ratio") || damps("quality") || damps("friction"));
+  return steady(settings) && unforced(settings) && std::ranges::any_of(brakes, brakes_it);
 }
+bool is_damped_out(const Settings& settings) {
+  return comes_to_a_standstill(settings, {"h", "damping", "damping_ratio", "quality"});
+}
+bool is_rubbed_out(const Settings& settings) { return comes_to_a_standstill(settings, {"friction"}); }
 /// Without a spring a section is taken at x = 0, to which a rigid stop at 0 or beyond lets no mass rise.
 bool never_passes_zero(const Settings& settings) {
   const bool above =
@@ -175,8 +180,10 @@ struct Rule {
 
 constexpr std::string_view in_transient = "in a transient", or_steady = "write mode = \"steady\" in [time]";
 constexpr std::string_view no_force = "without a force", or_force = "give a force";
-constexpr std::string_view standstill =
+constexpr std::string_view damped_out =
     "without a force, since damping brings the mass to a standstill: its values will be NaN";
+constexpr std::string_view rubbed_out =
+    "without a force, since friction brings the mass to a standstill: its values will be NaN";
 constexpr std::string_view or_drive = "give a force, or mode = \"transient\" in [time]";
 constexpr std::string_view or_soft = "give a finite stop_stiffness";
 constexpr std::string_view or_stops = "give stops";
@@ -213,16 +220,18 @@ constexpr Rule rules[] = {
     {"observe", "settling", transient, in_transient, or_steady},
     {"observe", "settling", unforced, no_force, or_force},
     {"observe", "attractor", transient, in_transient, or_steady},
-    {"observe", "section", comes_to_a_standstill, standstill, or_drive},
+    {"observe", "section", is_damped_out, damped_out, or_drive},
+    {"observe", "section", is_rubbed_out, rubbed_out, or_drive},
     {"observe", "section", never_passes_zero,
      "without a force and a spring, since between these stops the mass never passes x = 0 on its way up: its values "
      "will be NaN",
      or_force},
-    {"observe", "word_sticks", no_friction, "without friction", "give one in [scene]"},
+    {"observe", "word_sticks", no_friction, "without friction", "give friction"},
     {"observe", "word_sticks", no_word, "without word", "write word = true"},
     {"observe", "section_phase", no_section, "without a section", "write e.g. section = 500"},
     {"observe", "section_phase", unforced, no_force, or_force},
-    {"observe", "period", comes_to_a_standstill, standstill, or_force},
+    {"observe", "period", is_damped_out, damped_out, or_force},
+    {"observe", "period", is_rubbed_out, rubbed_out, or_force},
     {"observe", "period", no_period, "in a transient, which has none: its values will be NaN", or_steady},
     {"observe", "frame", unshaken, "without stop_amplitude or base_amplitude", "give one of them in [scene]"},
     {"observe", "frame", frameless, "without displacements or velocities of the mass", "write e.g. extrema = true"},

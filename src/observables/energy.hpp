@@ -26,10 +26,11 @@ struct Energy {
     double energy_residual = no_value;                      ///< work less losses and growth: 0 but for rounding
     double impact_power = no_value;                         ///< loss by impacts on both stops over the observed time
   };
-  static constexpr std::tuple fields{Field{Key{"observe", "energy", Kind::flag, "false", "true",
-                                               "energy balance, in [scene] per unit mass: work of force and load, "
-                                               "losses by damping and impacts, impulse on the stops, impact power"},
-                                           &Settings::energy}};
+  static constexpr std::tuple fields{
+      Field{Key{"observe", "energy", Kind::flag, "false", "true",
+                "energy balance, in [scene] per unit mass: work of force and load, "
+                "losses by damping, dry friction and impacts, impulse on the stops, impact power"},
+            &Settings::energy}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.energy; }
   [[nodiscard]] static std::string description(const Settings&) { return "energy"; }

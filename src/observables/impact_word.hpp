@@ -24,6 +24,7 @@ struct ImpactWord {
   };
   static constexpr std::size_t longest = 64;           ///< characters of a word
   static constexpr std::string_view no_contact = "-";  ///< the word of motion that meets no stop
+  static constexpr std::string_view stuck = "(S)";     ///< of a mass that friction holds for good, beside other motions
   static constexpr std::tuple fields{Field{Key{"observe", "word", Kind::flag, "false", "true",
                                                "impacts of one period in order, e.g. LLU (L lower, U upper stop), "
                                                "their number over periods, symmetry of the motion"},

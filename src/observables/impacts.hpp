@@ -30,10 +30,12 @@ struct Impacts {
     std::array<double, 2> contact_fraction{no_value, no_value}, contact_force_max{no_value, no_value};
   };
   static constexpr std::string_view not_hit = "the stop isn't hit";
-  static constexpr std::tuple fields{Field{Key{"observe", "impacts", Kind::flag, "false", "true",
-                                               "for each stop: impacts per period, velocity before and after the "
-                                               "first, speed of the fastest, share of time at rest"},
-                                           &Settings::impacts}};
+  static constexpr std::tuple fields{
+      Field{Key{"observe", "impacts", Kind::flag, "false", "true",
+                "for each stop: impacts per period, velocity before and after the "
+                "first, speed of the fastest, share of time at rest; under dry friction the share "
+                "of time stuck elsewhere"},
+            &Settings::impacts}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.impacts; }
   [[nodiscard]] static std::string description(const Settings&) { return "impacts"; }

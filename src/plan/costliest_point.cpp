@@ -23,26 +23,27 @@ double longest_time(const point::Problem& scene) {
   return static_cast<double>(time.max_periods + time.window) * period_of(scene.oscillator);
 }
 
-/// About the distance that motion between two stops travels: at its initial speed, until damping has taken that, plus
-/// at the speed of the response to the force.
+/// About the distance that motion between two stops travels: at its initial speed, until damping or friction has taken
+/// that, plus at the speed of the response to the force.
 double way_of(const point::Problem& scene) {
   const Oscillator& o = scene.oscillator;
   const double time = longest_time(scene);
   const double begun = norm(scene.start.displacement - equilibrium_of(o), scene.start.velocity);
   const double response = (1 + o.frequency) * steady_response(o).amplitude;
   const double forced = std::min(response, std::abs(o.forcing) * time);  // at resonance it grows
-  return begun * std::min(time, 1 / o.damping) + forced * time;
+  return begun * std::min({time, 1 / o.damping, begun / (2 * scene.friction.kinetic)}) + forced * time;
 }
 
 /// Impacts on a stop that an acceleration `pull` presses the mass onto: it returns after 2v/pull, and damping
-/// takes 2h v^2/3 of its energy in a unit of time, so that v falls as e^(-2ht/3).
+/// takes 2h v^2/3 of its energy in a unit of time, so that v falls as e^(-2ht/3). Friction takes mu/pull of the speed
+/// in each flight, and all of its digits in some 36 pull/mu.
 double bounces_on(const point::Problem& scene, double position, double pull) {
   if (!(pull >= 0)) return 0;
   const double time = longest_time(scene), fading = 2 * scene.oscillator.damping / 3;
   const double height = std::abs(scene.start.displacement - position);
   const double speed = std::hypot(scene.start.velocity, std::sqrt(2 * pull * height));
   const double stretched = fading > 0 ? std::expm1(fading * time) / fading : time;
-  const double impacts = pull * stretched / (2 * speed);
+  const double impacts = std::min(pull * stretched / (2 * speed), 36 * pull / scene.friction.kinetic);
   return std::isnan(impacts) ? scene.time.max_impacts : impacts;  // its start isn't known, or it stays on the stop
 }
 

@@ -38,6 +38,9 @@ std::string duration_text(const point::Problem& scene) {
   return scene.time.mode == steady::Mode::steady ? "for all time" : "until tau = " + text(scene.time.duration);
 }
 
+/// What a bound of the displacement between the stops takes in (eqs. 18 and 62).
+std::string bound_contents(const Effects& effects) { return effects.friction ? ", friction included" : ""; }
+
 Reason damping_reason(const Oscillator& oscillator) {
   const std::string h = "h = " + text(oscillator.damping);
   if (oscillator.stiffness <= 0)
@@ -106,7 +109,8 @@ Reason stop_reason(const point::Problem& scene, const Requirements& needs, bool 
   if (std::isinf(gap)) return {name, false, upper ? "stop_upper = inf: no stop" : "stop_lower = -inf: no stop"};
   const std::string bound = displacement(scene) + " <= ", during = ' ' + duration_text(scene);
   if (!needs.effects.stops())
-    return {name, false, bound + compared(needs.free_reach, " < ", gap) + during + ": out of reach"};
+    return {name, false,
+            bound + compared(needs.free_reach, " < ", gap) + during + bound_contents(needs.effects) + ": out of reach"};
   if (!required)
     return {name, false, bound + compared(needs.reach, " < ", gap) + during + ", impacts included: out of reach"};
   if (std::isnan(scene.start.displacement))
@@ -114,7 +118,8 @@ Reason stop_reason(const point::Problem& scene, const Requirements& needs, bool 
   const double reach =
       needs.free_reach < gap ? needs.reach : needs.free_reach;  // pushed there by the other stop, or not
   if (!(reach < infinity)) return {name, true, "nothing bounds " + displacement(scene)};
-  return {name, true, displacement(scene) + " may reach " + compared(reach, " >= ", gap)};
+  return {name, true,
+          displacement(scene) + " may reach " + compared(reach, " >= ", gap) + bound_contents(needs.effects)};
 }
 
 Reason dissipation_reason(const point::Problem& scene, const Effects& effects) {
@@ -150,7 +155,7 @@ Reason friction_reason(const point::Problem& scene) {
   const auto& [kinetic, level] = scene.friction;
   std::string why = "friction = " + text(kinetic);
   if (level != kinetic) why += ", friction_static = " + text(level);
-  if (scene.start.velocity == 0 && sticks_for_good(scene, scene.start.displacement))
+  if (never_moves(scene))
     why += ": the mass never moves, since the other forces at its start never exceed " + text(level);
   return {"friction", true, why};
 }

@@ -30,7 +30,8 @@ bool comes_to_its_end(const point::Problem& scene, double time) {
 }
 
 /// Forcing periods of a point. If nothing is proved, at best one to settle and one observed; at worst all of
-/// max_periods, those of the attempts to find the periodic motion, and the window.
+/// max_periods, those of the attempts to find the periodic motion, and the window. General methods make no such
+/// attempt, nor is one made under friction, which proves nothing but that a mass stays where it is.
 Bounds periods_of(const point::Problem& scene, const Effects& effects) {
   const steady::TimeSettings& time = scene.time;
   const Oscillator& o = scene.oscillator;
@@ -40,7 +41,9 @@ Bounds periods_of(const point::Problem& scene, const Effects& effects) {
     const double least = static_cast<double>(steady::last_look(o, time.max_periods));
     return {std::max(1.0, least) + 1, longest + static_cast<double>(time.window)};
   }
-  if (scene.integration.method != stepping::Method::exact) return {2, longest + static_cast<double>(time.window)};
+  if (never_moves(scene)) return {1, 1};
+  if (scene.integration.method != stepping::Method::exact || effects.friction)
+    return {2, longest + static_cast<double>(time.window)};
   if (!effects.stops() && comes_to_its_end(scene, longest * period)) return {1, 1};
   if (o.forcing == 0 && o.damping == 0 && !effects.dissipation) return {0, 1};
   return {2, longest * 1.25 + std::min(64.0, longest) + static_cast<double>(time.window)};

@@ -240,6 +240,10 @@ bool sticks_for_good(const Scene& scene, double x) {
   return scene.friction.static_level - std::abs(force) >= std::abs(scene.oscillator.forcing);
 }
 
+bool never_moves(const Scene& scene) {
+  return scene.start.velocity == 0 && sticks_for_good(scene, scene.start.displacement);
+}
+
 bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops) {
   if (response_meets(oscillator, stops)) return false;  // cheap to check first
   const double gap = gap_of(oscillator, stops);

@@ -65,6 +65,9 @@ struct PhasePoint {
 /// Whether dry friction holds a mass at x, away from rigid stops, for all time once its velocity is 0.
 [[nodiscard]] bool sticks_for_good(const Scene& scene, double x);
 
+/// Whether dry friction holds a mass for all time where it starts.
+[[nodiscard]] bool never_moves(const Scene& scene);
+
 /// Whether no stop can be met from an instant on, for all time.
 [[nodiscard]] bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops);
 

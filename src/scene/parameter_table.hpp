@@ -141,8 +141,8 @@ constexpr auto parameter_rows() {
                "holds the mass, up to friction_static",
                "", "dry friction"},
           .in_machine = {"0", "2 N",
-                         "dry friction, a force against the velocity; at rest whatever force holds the mass, up to "
-                         "friction_static",
+                         "dry friction, a force against the velocity, the coefficient times that which presses on the "
+                         "slide; at rest whatever force holds the mass, up to friction_static",
                          mass_spring_stops, "dry friction"},
           .role = Role::friction,
           .place = in<Number, dry, &F::kinetic>},

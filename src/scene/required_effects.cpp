@@ -12,8 +12,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Bound of the distance from the equilibrium under friction, while no stop interferes: what moves the mass without it,
-/// and what friction adds (eq. 62), or the energy, which friction never raises (eq. 18).
+/// and what friction adds (eq. 62), or the energy, which friction never raises (eq. 18). A mass that friction holds
+/// stays where it is.
 double rubbing_reach(const Scene& scene, const PhaseState& start, double duration) {
+  if (never_moves(scene)) return std::abs(start.x) * (1 + 64 * std::numeric_limits<double>::epsilon());
   const Oscillator& o = scene.oscillator;
   return std::fmin(displacement_bound(o, start, duration, 0.0) + friction_bound(o, scene.friction),
                    displacement_bound_through_impacts(o, start, duration));

@@ -43,7 +43,7 @@ const std::vector<T>& of(const Dataset& dataset, const std::string& name) {
 TEST(Sticking, wherever_friction_holds_the_mass_for_good_is_one_attractor) {
   for (const double force : {0.0, 0.1}) {
     const Dataset dataset = attractors_of(slide(force, 0.2, 0.7), {});
-    EXPECT_EQ(of<std::string>(dataset, "motion_word"), std::vector<std::string>{"-"}) << force;
+    EXPECT_EQ(of<std::string>(dataset, "motion_word"), std::vector<std::string>{"(S)"}) << force;
     EXPECT_EQ(of<std::int64_t>(dataset, "motion_points")[0], 49) << force;
     EXPECT_TRUE(std::ranges::all_of(of<std::uint8_t>(dataset, "status"), [](int status) { return status == 0; }));
   }

@@ -69,11 +69,11 @@ void expect_derivatives(const FollowedScene& scene, const Flight<double>& flight
           const auto ahead = at("1e-16"), behind = at("-1e-16");
           const FiftyDigits width("2e-16");
           const double x = static_cast<double>(FiftyDigits((ahead.beyond - behind.beyond) / width)),
-                       v = static_cast<double>(FiftyDigits((ahead.velocity - behind.velocity) / width));
+                       v = static_cast<double>(FiftyDigits((ahead.coordinate - behind.coordinate) / width));
           // formulas of free motion have the root of |h^2 - k| in denominators
           const double condition = 1 / std::min(1.0, std::abs(h * h - k) == 0 ? 1.0 : std::abs(h * h - k));
           EXPECT_NEAR(exact.beyond.slope[i], x, 2e-12 * (1 + std::abs(x)) * condition) << i << " k = " << k;
-          EXPECT_NEAR(exact.velocity.slope[i], v, 2e-12 * (1 + std::abs(v)) * condition) << i << " k = " << k;
+          EXPECT_NEAR(exact.coordinate.slope[i], v, 2e-12 * (1 + std::abs(v)) * condition) << i << " k = " << k;
         }
       },
       any_stiffness);

@@ -202,7 +202,7 @@ class Campaign:
                 self.fail("hardest", i, f"impact_speed {base['impact_speed'][i]} for {fastest(base.logs[i])}")
 
     def logs(self, base):
-        """Each impact of rigid stops at rest follows from the one before, by closed forms of our own, without friction."""
+        """Each impact of rigid stops at rest follows from the one before, by closed forms, if nothing rubs."""
         for i in np.flatnonzero(base["status"] == 2):
             s, log = self.scenes[i], base.logs[i]
             soft = math.isfinite(s.stop_stiffness_lower) or math.isfinite(s.stop_stiffness_upper)

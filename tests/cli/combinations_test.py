@@ -9,7 +9,7 @@ import unittest
 
 from combinations import Campaign, report
 from followed_branches import BranchCampaign
-from random_scenes import followed_scenes, rough_scenes, weak_scenes
+from random_scenes import followed_scenes, rough_scenes, rubbed_scenes, slipping_scenes, weak_scenes
 from sweep_relations import SweepCampaign
 
 CLATTER = os.environ["CLATTER"]
@@ -39,11 +39,24 @@ class Combinations(unittest.TestCase):
         self.assertEqual(report(campaign.failures), "")
         self.assertGreater(campaign.points, 200)
 
-    def test_points_of_a_sweep_know_where_the_others_end(self):
-        """Followed points begin there, and starts are numbered by it."""
-        campaign = SweepCampaign(CLATTER, followed_scenes(max(40, COUNT // 10), SEED + 1))
+    def test_points_of_branches_under_dry_friction_are_motions(self):
+        campaign = BranchCampaign(CLATTER, slipping_scenes(max(40, COUNT // 10), SEED))
         self.assertEqual(report(campaign.failures), "")
         self.assertGreater(campaign.points, 400)
+
+    def test_points_of_a_sweep_know_where_the_others_end(self):
+        """Followed points begin there, and starts are numbered by it."""
+        self.check_sweeps(followed_scenes(max(40, COUNT // 10), SEED + 1), 400)
+
+    def test_points_of_a_sweep_under_dry_friction_know_it_too(self):
+        count = max(30, COUNT // 10)
+        rubbed = [s for s in rubbed_scenes(2 * count, SEED + 2) if not s.is_unforced() and s.stiffness > 0]
+        self.check_sweeps(slipping_scenes(count, SEED + 2) + rubbed, 1000)
+
+    def check_sweeps(self, scenes, least):
+        campaign = SweepCampaign(CLATTER, scenes)
+        self.assertEqual(report(campaign.failures), "")
+        self.assertGreater(campaign.points, least)
 
 
 if __name__ == "__main__":

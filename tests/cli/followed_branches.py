@@ -95,6 +95,12 @@ class BranchCampaign:
                 return True
         return False
 
+    @staticmethod
+    def may_jump(found, point):
+        """Whether a point is one at which dry friction begins to hold the mass, or no longer does."""
+        changes = [b"sliding" in kind for kind in found["special_kind"]]
+        return np.any(np.abs(found["special_nu"][changes] - found["nu"][point]) <= 1e-9)
+
     def run_again(self, i, scene, found):
         """Points of branches are motions: they come back after their period, in units of time in which that is 2 pi."""
         for ratio in np.unique(found["period_ratio"]):
@@ -109,6 +115,7 @@ class BranchCampaign:
             inside = [k for k, s in enumerate(scenes) if s.stop_lower < s.x0 < s.stop_upper or is_beyond_soft(s)]
             if not inside:
                 continue
+            inside = [k for k in inside if not self.may_jump(found, of[k])]
             time = f'mode = "transient"\nduration = {2 * math.pi * ratio!r}\n'
             nudge = 1e-11  # multipliers don't tell how far changes are stretched between two rests
             nudged = [scenes[k].changed(v0=scenes[k].v0 + nudge * (1 if scenes[k].v0 >= 0 else -1)) for k in inside]

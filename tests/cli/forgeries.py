@@ -67,7 +67,9 @@ def twice_the_period(certificate):
     certificate["periods"] *= 2
     later = copy.deepcopy(certificate["events"])
     for event in later:
-        event["time"] = [event["time"][0] + period, 2 * event["time"][1] + 1e-12]
+        for name in ("time", "until"):
+            if name in event:
+                event[name] = [event[name][0] + period, 2 * event[name][1] + 1e-12]
     certificate["events"] += later
     for name in ("multipliers", "word", "symmetric"):
         certificate.pop(name, None)
@@ -102,6 +104,41 @@ def rest_left_out(certificate):
 def rest_too_long(certificate):
     for index in rests(certificate)[:1]:
         return number(certificate, index, "until")
+
+
+def sticks(certificate):
+    return [i for i, event in enumerate(certificate["events"]) if event["event"] == "stick"]
+
+
+def wrong_place(certificate):
+    for index, event in enumerate(certificate["events"]):
+        if "x" in event:
+            return number(certificate, index, "x")
+
+
+def stick_left_out(certificate):
+    for index in sticks(certificate)[:1]:
+        del certificate["events"][index]
+        return certificate
+
+
+def stick_that_is_none(certificate):
+    for event in certificate["events"]:
+        if event["event"] == "reversal":
+            return event.update(event="stick", until=[event["time"][0] + 1e-3, 1e-9]) or certificate
+
+
+def stick_too_long(certificate):
+    for index in sticks(certificate)[:1]:
+        return number(certificate, index, "until")
+
+
+def more_friction(certificate):
+    scene = certificate["scene"]
+    for name in {"friction", "friction_static"} & scene.keys():
+        scene[name] *= 1.001
+    slips = certificate["events"] and certificate["claim"] != "special"
+    return certificate if scene.get("friction") and slips else None
 
 
 def wrong_maximum(certificate):
@@ -201,6 +238,11 @@ FORGERIES = [
     rest_that_is_none,
     rest_left_out,
     rest_too_long,
+    wrong_place,
+    stick_left_out,
+    stick_that_is_none,
+    stick_too_long,
+    more_friction,
     wrong_maximum,
     wrong_minimum,
     wrong_word,

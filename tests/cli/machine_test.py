@@ -81,6 +81,13 @@ class Machine(StoppedRuns):
             text, r"\n  computed as +h = 0\.1, f = -0\.001, nu = 0\.785398\d+, phase = 0, load = 0\.000234"
         )
         self.assertIn("lengths in m, times in 0.00625 s; point 0\n", text)
+        for friction in ((), ("machine.friction=1 N", "machine.friction_static=2 N")):
+            self.check_computed_scene(config, words + sets(friction))
+        without = self.clatter("plan", self.write("c.toml", "[scene]\nxs = 1\n"), "--json").stdout
+        self.assertIsNone(json.loads(without)["groups"][0]["computed_as"])
+
+    def check_computed_scene(self, config, words):
+        """The scene that plan prints moves as the machine does."""
         scene = json.loads(self.clatter("plan", config, "--json", *words).stdout)["groups"][0]["computed_as"]
         time = scene.pop("unit_of_time")
         lines = "".join(f"{key} = {float(value)!r}\n" for key, value in scene.items())
@@ -90,8 +97,6 @@ class Machine(StoppedRuns):
         # the same double arithmetic, then one conversion of a few roundings
         np.testing.assert_allclose(machine.v_max, by_hand.v_max / time, rtol=1e-15 * 4)
         np.testing.assert_allclose(machine.work_in, by_hand.work_in * M / time**2, rtol=1e-15 * 8)
-        without = self.clatter("plan", self.write("c.toml", "[scene]\nxs = 1\n"), "--json").stdout
-        self.assertIsNone(json.loads(without)["groups"][0]["computed_as"])
 
     def test_shards_and_directions_and_their_merge(self):
         words = ("sweep.frequency=linspace(24 Hz, 30 Hz, 13)", "sweep.follow=frequency", "sweep.direction=both")

@@ -133,7 +133,7 @@ def random_scenes(count, seed):
 
 
 def rubbed(draw, scene):
-    """The scene with dry friction, from next to nothing to nearly as much as holds the mass; not between stops that move."""
+    """The scene with dry friction, up to nearly as much as holds the mass; not between stops that move."""
     if scene.stop_amplitude:
         return scene
     force = max(abs(scene.f), abs(scene.base_amplitude * scene.stiffness), abs(scene.load) / 10) or 1.0
@@ -147,6 +147,12 @@ def rough_scenes(count, seed):
     draw = random.Random(f"friction {seed}")
     scenes = random_scenes(count, seed)
     return [rubbed(draw, scene) if draw.random() < 0.25 else scene for scene in scenes]
+
+
+def rubbed_scenes(count, seed):
+    """Those of `random_scenes` that may have dry friction, all with it."""
+    draw = random.Random(f"friction {seed}")
+    return [rubbed(draw, scene) for scene in random_scenes(count, seed) if not scene.stop_amplitude]
 
 
 def compliant(draw):
@@ -208,6 +214,27 @@ def followed_scenes(count, seed):
         scene = drawn(draw)
         if abs(scene.f) > 1e-2 and not scene.base_amplitude and not scene.stop_amplitude and scene.h > 1e-3:
             scenes.append(scene)
+    return scenes
+
+
+def slipping_scenes(count, seed):
+    """Dry friction between rigid stops that the mass reaches or not; its static level is the other one, or above it."""
+    draw = random.Random(seed)
+    scenes = []
+    for _ in range(count):
+        scene = Scene(h=draw.choice([0.0, logarithmic(draw, 1e-3, 0.3)]), nu=logarithmic(draw, 0.3, 3))
+        scene.f, scene.stiffness = draw.choice([-1, 1]), draw.choice([1.0, 1.0, logarithmic(draw, 0.2, 3)])
+        scene.load, gap = draw.choice([0.0, 0.0, draw.uniform(-0.3, 0.3)]), logarithmic(draw, 0.3, 6)
+        middle = draw.choice([0.0, scene.load / scene.stiffness])
+        scene.stop_lower, scene.stop_upper = middle - gap / 2, middle + gap / 2
+        scene.R_lower = scene.R_upper = draw.uniform(0.3, 0.95)
+        if draw.random() < 0.3:
+            scene.stop_lower, scene.R_lower = -INF, 1.0
+        scene.x0, scene.v0 = draw.uniform(middle - gap / 2, middle + gap / 2), draw.uniform(-1, 1)
+        scene.friction = logarithmic(draw, 0.02, 0.6)
+        if draw.random() < 0.2:
+            scene.friction_static = scene.friction * draw.uniform(1, 1.5)
+        scenes.append(scene)
     return scenes
 
 

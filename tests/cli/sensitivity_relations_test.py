@@ -209,8 +209,9 @@ class OfRandomScenes(unittest.TestCase):
                 rounding = 1e-10 * (size + 1e-3) / contraction / step
                 if math.isnan(one) or math.isnan(other) or abs(one - other) > 1e-2 * abs(one) + rounding:
                     continue
-                self.check(abs(own - one), abs(one - other) + rounding, f"{result} by friction at 0, {scene}")
-                confirmed += abs(one - other) + rounding < 1e-3 * abs(own)
+                allowed = 2 * abs(one - other) + rounding
+                self.check(abs(own - one), allowed, f"{result} by friction at 0, {scene}")
+                confirmed += allowed < 1e-3 * abs(own)
         return confirmed
 
     def compare_differences(self, runs, i, key, sides, j, step, scene):
@@ -236,8 +237,10 @@ class OfRandomScenes(unittest.TestCase):
 
 
 def same_motion(some, j, others, i):
+    """Whether two periodic motions have the same events; of those whose word is cut off that isn't known."""
     return (
         some["status"][j] == PERIODIC
+        and not others["impact_word"][i].decode().endswith("…")
         and some["impact_word"][j] == others["impact_word"][i]
         and abs(some["period_ratio"][j] - others["period_ratio"][i]) < 1e-9
     )

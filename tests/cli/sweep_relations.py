@@ -78,7 +78,7 @@ class SweepCampaign:
         return near and np.array_equal(runs["period_ratio"][k], others["period_ratio"][j], equal_nan=True)
 
     def starts(self, i, scene):
-        """Starts have the same number just if they end in the same motion."""
+        """Starts have the same number just if they end in the same motion, or where friction holds the mass for good."""
         low, high = max(scene.stop_lower, -2.0), min(scene.stop_upper, 2.0)
         x0 = [low + (high - low) * share for share in (0.5, 0.1, 0.9, 0.3, 0.7, 0.45)]
         v0 = [0.0, 1.3, -0.8, -2.1, 0.4, 3.0]
@@ -87,13 +87,14 @@ class SweepCampaign:
         state = np.column_stack([runs["x"][:, 0], runs["v"][:, 0], runs["period_ratio"], runs["x_max"], runs["x_min"]])
         state = np.nan_to_num(state)  # a mass that stands still has no period
         size = 1 + np.abs(state[:, :2]).max(axis=1)
+        stuck = runs["stick_fraction"] == 1 if scene.friction else np.zeros(len(x0), bool)
         for a in range(len(x0)):
             for b in range(a):
                 if status[a] not in PERIODIC or status[b] not in PERIODIC or min(number[a], number[b]) < 0:
                     continue
                 self.points += 1
                 off = np.abs(state[a] - state[b]).max() / size[a]
-                if (number[a] == number[b]) != (off < 1e-8):
+                if (number[a] == number[b]) != (off < 1e-8 or (stuck[a] and stuck[b])):
                     self.fail("attractor", i, f"{number[a]} and {number[b]}: {state[a]} and {state[b]}")
         for a in np.flatnonzero(np.isin(status, PERIODIC) & (number < 0)):
             self.fail("attractor", i, f"none for a motion of period {runs['period_ratio'][a]}")

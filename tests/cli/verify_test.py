@@ -14,7 +14,7 @@ import unittest
 from certified_runs import VERIFY, certified, random_certificates, verified
 from command_line import LONGEST, SOURCE, CommandLine
 from forgeries import FORGERIES, forged
-from random_scenes import close_scenes, compliant_scenes, pressing_scenes, random_scenes
+from random_scenes import close_scenes, compliant_scenes, pressing_scenes, random_scenes, rubbed_scenes
 
 SCENES = int(os.environ.get("CLATTER_VERIFIED", "150"))
 IS_LONG = SCENES > 1000
@@ -38,6 +38,17 @@ stop_stiffness = 30
 stop_damping = 0.1
 [sweep]
 nu = "linspace(0.5, 1.5, 21)"
+"""
+
+ROUGH = """[scene]
+f = 1.0
+h = 0.05
+R = 0.7
+xs = 0.5
+friction_static = 0.25
+[sweep]
+nu = "linspace(0.6, 1.8, 7)"
+friction = [0.1, 0.2]
 """
 
 QUIET = """[scene]
@@ -102,6 +113,11 @@ MALFORMED = [  # a line, and the place and how to fix it that are told
     (in_scene(lower={"position": 1}), "scene.lower: has neither R nor stiffness; give one"),
     (in_scene(lower={"position": 1, "R": 2}), "scene.lower.R: is 2; it must be at least 0 and at most 1"),
     (in_scene(upper={"position": -6, "R": 1}), "scene: has its lower stop above the upper one; exchange"),
+    (in_scene(friction=0.2, friction_static=0.1), "scene.friction_static: is below friction; give the same or more"),
+    (
+        {**RIGHT, "events": [{"event": "stick", "time": [1, 1], "until": [2, 1], "x": [0, 1]}]},
+        r"events\[0\]: is an event of dry friction; the scene has none",
+    ),
     ({**RIGHT, "claim": "proof"}, "claim: is 'proof'; write transient, periodic or special"),
     ({**RIGHT, "claim": "special"}, "kind: is missing; add it"),
     ({**RIGHT, "claim": "special", "kind": "cusp"}, "kind: is 'cusp'; write fold, flip, "),
@@ -189,6 +205,7 @@ class Verify(CommandLine):
             ("compliant", compliant_scenes(few, seed=44)),
             ("close", close_scenes(few, seed=45)),
             ("pressing", pressing_scenes(few, seed=46)),
+            ("rough", rubbed_scenes(2 * few, seed=47)),
         ):
             for first in range(0, len(scenes), AT_ONCE):
                 self.prove_scenes(f"{name}_{first}", scenes[first : first + AT_ONCE])
@@ -203,7 +220,7 @@ class Verify(CommandLine):
 
     def test_every_forgery_is_refuted(self):
         lines, kinds = [], []
-        for name, config in (("rests", RESTS), ("soft", SOFT), ("transient", TRANSIENT)):
+        for name, config in (("rests", RESTS), ("soft", SOFT), ("transient", TRANSIENT), ("rough", ROUGH)):
             file = self.certificates(name, config)
             self.assert_proved(verified(file), 1)
             for line in file.read_text(encoding="utf-8").splitlines():

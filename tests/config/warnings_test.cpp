@@ -122,6 +122,26 @@ TEST(WithoutEffect, section_and_period_of_motion_that_damping_stops_are_warned_o
   expect_none(free + "[time]\nmode = \"transient\"\nduration = 9\n" + observe + "section = 3\n");
 }
 
+TEST(WithoutEffect, section_and_period_of_motion_that_friction_stops_are_warned_of) {
+  const std::string free = "[scene]\nxs = 1\n", observe = "[observe]\n";
+  const std::string warning = " has no effect without a force, since friction brings the mass to a standstill";
+  expect_warning(free + "friction = 0.1\n" + observe + "section = 3\n", "5:1", "'section'" + warning);
+  expect_warning("[machine]\nmass = 1\ngap = 1\n[sweep]\nfriction = [1, 2]\n" + observe + "period = true\n", "7:1",
+                 "'period'" + warning);
+  expect_none(free + "friction = 0.1\nf = 1\n" + observe + "section = 3\nperiod = true\n");
+  expect_none(free + "[sweep]\nfriction = [0, 0.1]\n" + observe + "section = 3\nperiod = true\n");
+  expect_none(free + "friction_static = 0.1\n" + observe + "section = 3\nperiod = true\n");  // it takes nothing
+}
+
+TEST(WithoutEffect, sticks_in_words_without_friction_or_words_are_warned_of) {
+  const std::string sticks = "[observe]\nextrema = true\nword_sticks = true\n";
+  expect_warning("[scene]\nxs = 1\nf = 1\n" + sticks + "word = true\n", "6:1",
+                 "'word_sticks' has no effect without friction; leave it out, or give friction");
+  expect_warning("[scene]\nxs = 1\nf = 1\nfriction = 0.1\n" + sticks, "7:1",
+                 "'word_sticks' has no effect without word; leave it out, or write word = true");
+  expect_none("[scene]\nxs = 1\nf = 1\n[sweep]\nfriction_static = [0, 0.1]\n" + sticks + "word = true\n");
+}
+
 TEST(WithoutEffect, a_section_that_a_rigid_stop_keeps_the_mass_from_is_warned_of) {
   const std::string ball = "[scene]\nload = -1\nstop_lower = 0\nx0 = 1\n", observe = "[observe]\nsection = 3\n";
   expect_warning(ball + "stiffness = 0\n" + observe, "7:1",

@@ -45,6 +45,15 @@ Scene moved(const AnyScene& any, std::uint64_t way) {
   return other;
 }
 
+/// Results of a motion that are sums over it or its extremes, each over its scale.
+using Results = std::array<double, 4>;
+
+[[nodiscard]] double largest_difference(const Results& a, const Results& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) raise(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
 /// The simulator's motion of a scene, and how much roundings of the inputs are magnified in it.
 class Reference {
  public:
@@ -52,31 +61,49 @@ class Reference {
       : run(slide(any.scene, any.duration, most_events)),
         scales(scales_of(any.scene, any.duration, run)),
         events(joined(run.events, any.duration)),
+        is_unforced(any.scene.oscillator.forcing == 0),
         decided(events.size()),
         growth(events.size(), 0.0) {
     for (std::uint64_t way = 0; way < 4; ++way) compare(slide(moved(any, way), any.duration, most_events));
     compare(slide(any.scene, any.duration, most_events, epsilon<double>()));
     for (std::size_t i = 0; i < growth.size(); ++i)
       growth[i] = std::max({growth[i], of_stopping(events[i]), i == 0 ? 0 : growth[i - 1]});
+    if (!growth.empty()) end_growth = std::max(end_growth, growth.back());
   }
 
   /// The most by which the program may be off in an event.
   [[nodiscard]] double allowed(std::size_t event) const {
-    return std::max((16 + static_cast<double>(event)) * epsilon<double>(), 128 * growth[event]);
+    return std::max((16 + static_cast<double>(event)) * epsilon<double>(), 64 * growth[event]);
   }
   [[nodiscard]] double allowed_at_end() const {
-    return std::max((16 + static_cast<double>(events.size())) * epsilon<double>(), 128 * end_growth);
+    return std::max((16 + static_cast<double>(events.size())) * epsilon<double>(), 64 * end_growth);
   }
-  [[nodiscard]] bool is_decided() const { return run.completed && decided == events.size() && ends_alike; }
+  [[nodiscard]] bool is_decided() const { return run.completed && decided == events.size() && ends_alike && !creeps(); }
+  /// Whether heavy damping lets the mass come ever closer to its last place. Once nothing can tell it from there, it
+  /// sticks in the program.
+  [[nodiscard]] bool creeps() const { return is_unforced && run.v != 0 && std::abs(run.v) < 1e-12 * run.fastest; }
   [[nodiscard]] double end_deviation(double x, double v) const {
     return std::max(std::abs(x - static_cast<double>(run.x)) / scales.size,
                     std::abs(v - static_cast<double>(run.v)) / std::max(scales.fastest, 1e-300));
+  }
+
+  /// Least and greatest displacement, share of time in sticks, and the energy lost to friction.
+  [[nodiscard]] Results scaled(double lowest, double highest, double stuck, double rubbed) const {
+    const double energy = std::max(static_cast<double>(run.rubbed), scales.fastest * scales.fastest);
+    return {lowest / scales.size, highest / scales.size, stuck, of_summed_chatter * rubbed / std::max(energy, 1e-300)};
+  }
+  /// The program tells all that is lost in the chatter that it sums, about 1e-11 of the energy, as lost in impacts.
+  static constexpr double of_summed_chatter = 1e-3;
+  [[nodiscard]] Results results_of(const SlideRun& one) const {
+    return scaled(static_cast<double>(one.lowest), static_cast<double>(one.highest),
+                  static_cast<double>(one.stuck) / scales.duration, static_cast<double>(one.rubbed));
   }
 
   static constexpr std::size_t most_events = 6000;
   SlideRun run;
   SlideScales scales;
   std::vector<SlideEvent> events;
+  bool is_unforced;
   std::size_t decided;         ///< events before the first that roundings turn into another
   std::vector<double> growth;  ///< the effect of a few roundings, by event
   double end_growth = 0;
@@ -94,7 +121,8 @@ class Reference {
     for (const auto& [i, j] : same.pairs) growth[j] = std::max(growth[j], deviation_of(its[i], events[j], scales));
     decided = std::min(decided, same.first_difference);
     ends_alike = ends_alike && same.difference.empty();
-    end_growth = std::max({end_growth, end_deviation(static_cast<double>(other.x), static_cast<double>(other.v))});
+    end_growth = std::max({end_growth, end_deviation(static_cast<double>(other.x), static_cast<double>(other.v)),
+                           largest_difference(results_of(other), results_of(run))});
   }
 };
 
@@ -114,8 +142,19 @@ struct Told {
   std::vector<SlideEvent> events{};
 };
 
+/// The program's results, in the order of `Reference::scaled`.
+[[nodiscard]] Results results_of(const AnyScene& any, const Reference& reference) {
+  point::Problem problem = any.scene;
+  auto& observe = problem.observe;
+  observe.extrema = observe.impacts = observe.energy = observe.of_sticks = observe.of_friction = true;
+  point::ThreadScratch scratch;
+  const point::PointResult result = run_point(problem, scratch);
+  return reference.scaled(result.x_min, result.x_max, result.stick_fraction, result.loss_friction);
+}
+
 TEST(SlidingScenes, are_told_event_by_event_as_taylor_series_tell_them) {
-  Tally same("the same events", sliding), off("times, speeds and places", sliding), ends("state at the end", sliding);
+  Tally same("the same events", sliding), off("times, speeds and places", sliding), ends("state at the end", sliding),
+      results("extrema, time in sticks and work of friction", sliding);
   std::map<Kind, std::uint64_t> counts;
   std::uint64_t scenes = 0, decided = 0;
   in_every_scene(sliding, [&](const AnyScene& any) {
@@ -123,8 +162,9 @@ TEST(SlidingScenes, are_told_event_by_event_as_taylor_series_tell_them) {
     const Told told(any);
     const bool is_cut = told.outcome == stepping::Outcome::event_budget;
     const SlideMatch found = match(told.events, is_cut, reference.events, !reference.run.completed, reference.scales);
-    const bool is_same = (told.outcome == stepping::Outcome::completed || is_cut) &&
-                         (found.difference.empty() || found.first_difference >= reference.decided);
+    const bool is_same =
+        (told.outcome == stepping::Outcome::completed || is_cut) &&
+        (found.difference.empty() || (found.first_difference >= reference.decided && !reference.is_decided()));
     same.take(any, is_same ? 0 : std::numeric_limits<double>::infinity());
     if (!is_same) std::cout << any.index << ": " << found.difference << "\n";
     double worst = 0;
@@ -135,11 +175,14 @@ TEST(SlidingScenes, are_told_event_by_event_as_taylor_series_tell_them) {
     }
     off.take(any, worst);
     ++scenes;
-    if (is_cut || !is_same || !reference.is_decided()) return;
+    if (is_cut || !is_same || !(reference.is_decided() || reference.creeps())) return;
     ++decided;
     ends.take(any, reference.end_deviation(told.end.x, told.end.v) / reference.allowed_at_end());
+    if (reference.creeps()) return;
+    const double off_by = largest_difference(results_of(any, reference), reference.results_of(reference.run));
+    results.take(any, off_by / reference.allowed_at_end());
   });
-  same.conclude(1), off.conclude(1), ends.conclude(0.9);
+  same.conclude(1), off.conclude(1), ends.conclude(0.9), results.conclude(0.9);
   std::cout << decided << " of " << scenes << " decided;";
   for (const auto& [kind, count] : counts) std::cout << " " << static_cast<int>(kind) << ": " << count;
   std::cout << "\n";

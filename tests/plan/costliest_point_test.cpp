@@ -50,6 +50,21 @@ TEST(CostliestPoint, of_a_pressed_mass_takes_all_impacts_there_are_at_most) {
   EXPECT_FALSE(warns(few));
 }
 
+/// A chatter is summed before it ends, so there are fewer impacts than those in which friction takes all digits.
+TEST(CostliestPoint, of_a_pressed_mass_is_not_endless_under_friction) {
+  point::ThreadScratch scratch;
+  for (const double friction : {0.003, 0.03, 0.3}) {
+    point::Problem scene = transient({0.0, 0.0, 1.0, 2.0}, 1.0, 0.0);
+    scene.friction = {friction, friction}, scene.time.duration = 10000;
+    const double impacts = run_point(scene, scratch).impacts;
+    EXPECT_GT(impacts_without_loss(scene), impacts) << friction;
+    EXPECT_LT(impacts_without_loss(scene), 10 * impacts) << friction;
+  }
+  point::Problem fast = transient({0.0, 0.0, 1.0, 0.0}, 1.0, 1e5);
+  fast.friction = {500, 500};
+  EXPECT_NEAR(impacts_without_loss(fast) / (1e10 / (2 * 500) / 2), 1, 1e-6);
+}
+
 TEST(CostliestPoint, of_a_fast_one_costs_its_path_in_distances_between_the_stops) {
   const Oscillator free{0.0, 0.0, 1.0, 0.0}, damped{0.1, 0.0, 1.0, 0.0};
   const point::Problem fast = transient(free, 1.0, 1e5);

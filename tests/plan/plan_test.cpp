@@ -52,9 +52,10 @@ TEST(Plan, groups_are_the_same_for_every_number_of_threads) {
 TEST(Plan, points_run_with_the_effects_of_their_group_and_no_longer_than_it_says) {
   point::Problem scene = figure(3);
   scene.time.max_periods = 300;
+  const sweep::Axis friction{Parameter("friction"), {0.0, 0.2, 1.5}};
   for (const bool all : {false, true}) {
     scene.integration.all_effects = all;
-    const sweep::Sweep sweep = sweep::sweep_of(scene, {{Parameter("nu"), frequencies()}});
+    const sweep::Sweep sweep = sweep::sweep_of(scene, {friction, {Parameter("nu"), frequencies()}});
     const Plan plan = plan_of(sweep, 2);
     const sweep::RunResult result = run(sweep, {.threads = 2});
     ASSERT_EQ(result.work.size(), plan.groups.size());
@@ -133,8 +134,23 @@ TEST(Plan, warns_of_motion_that_keeps_its_transient) {
   scene.oscillator.damping = 0, scene.oscillator.frequency = 1.3;
   scene.stops.restitution_lower = scene.stops.restitution_upper = 1;
   EXPECT_TRUE(warns(plan_of(sweep::sweep_of(scene, {}), 1), "never fades"));
+  point::Problem rubbing = scene;
+  rubbing.friction = {0.1, 0.1};
+  EXPECT_FALSE(warns(plan_of(sweep::sweep_of(rubbing, {}), 1), "never fades"));
   scene.stops.restitution_lower = 0.9;
   EXPECT_FALSE(warns(plan_of(sweep::sweep_of(scene, {}), 1), "never fades"));
+}
+
+TEST(Plan, of_a_mass_that_friction_never_lets_go_is_a_period) {
+  point::Problem scene = figure(3);
+  scene.friction = {0.5, 1.5};
+  const Plan plan = plan_of(sweep::sweep_of(scene, {{Parameter("nu"), frequencies()}}), 1);
+  ASSERT_EQ(plan.groups.size(), 2u);  // near resonance and away from it
+  for (const Group& group : plan.groups) {
+    EXPECT_EQ(group.periods.least, static_cast<double>(group.points));
+    EXPECT_EQ(group.periods.most, static_cast<double>(group.points));
+  }
+  EXPECT_TRUE(warns(plan, "the upper stop is never reached at any point, at the closest |x| <= 0 < 3"));
 }
 
 TEST(Plan, along_a_followed_chain_only_the_first_start_is_known) {

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "scene/required_effects.hpp"
 
 namespace clatter::plan {
 namespace {
@@ -99,6 +102,38 @@ TEST(Reasons, the_oscillator_names_the_terms_of_its_arcs) {
   expect_reason(scene, "damping", true, "h = 1: critical, the limit of rotation and creep");
   scene.oscillator.damping = 2.0;
   expect_reason(scene, "damping", true, "h = 2 > 1: free motion is the sum of a slow and a fast decay");
+}
+
+TEST(Reasons, friction_is_named_if_a_scene_has_it_and_whether_it_lets_the_mass_go) {
+  const auto rubbing = [](double friction, double level) {
+    point::Problem scene = figure(3, 1);
+    scene.friction = {friction, level};
+    return scene;
+  };
+  EXPECT_THROW((void)reason(figure(3, 1), "friction"), std::out_of_range);
+  expect_reason(rubbing(0.2, 0.2), "friction", true, "friction = 0.2");
+  expect_reason(rubbing(0.2, 0.3), "friction", true, "friction = 0.2, friction_static = 0.3");
+  point::Problem held = rubbing(0.2, 1);  // |f| = 1
+  expect_reason(held, "friction", true,
+                "friction = 0.2, friction_static = 1: the mass never moves, since the other forces at its start never "
+                "exceed 1");
+  expect_reason(held, "upper stop", false, "|x| <= 0 < 3 for all time, friction included: out of reach");
+  held.start.displacement = 0.01;  // the spring helps the force
+  expect_reason(held, "friction", true, "friction = 0.2, friction_static = 1");
+  held.start = {.velocity = 1e-9};
+  expect_reason(held, "friction", true, "friction = 0.2, friction_static = 1");
+}
+
+TEST(Reasons, a_stop_is_out_of_reach_by_a_bound_that_includes_friction) {
+  point::Problem scene = figure(9, 1.2);
+  scene.friction = {0.2, 0.2};
+  const auto reach = [&] { return requirements_of(scene).free_reach; };
+  const double rubbing = reach();
+  EXPECT_TRUE(reason(scene, "upper stop").why.ends_with(" < 9 for all time, friction included: out of reach"));
+  scene.friction = {};
+  EXPECT_NEAR(rubbing - reach(), 0.2 / std::tanh(std::acos(-1.0) * 0.1 / (2 * std::sqrt(0.99))), 1e-9);
+  scene.friction = {0.2, 0.2}, scene.stops = {-3, 3, 0.7, 0.7};
+  EXPECT_TRUE(reason(scene, "upper stop").why.ends_with(" >= 3, friction included"));
 }
 
 TEST(Reasons, tell_the_saving_by_an_effect_left_out) {

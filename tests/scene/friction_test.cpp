@@ -54,5 +54,22 @@ TEST(Friction, holds_a_mass_for_good_if_the_force_can_never_move_it) {
   EXPECT_FALSE(sticks_for_good(scene, 0.2)) << "the stop pushes it back";
 }
 
+TEST(Friction, takes_stops_out_of_the_reach_of_a_mass_that_it_never_lets_go) {
+  Scene scene;
+  scene.oscillator = {.damping = 0.1, .forcing = 0.25, .frequency = 1.3};
+  scene.stops = {-1, 1, 0.7, 0.7};
+  scene.friction = {0.1, 0.5};
+  scene.start.displacement = -0.25;
+  EXPECT_TRUE(never_moves(scene));
+  EXPECT_FALSE(required_effects(scene).stops());
+  EXPECT_NEAR(requirements_of(scene).free_reach, 0.25, 1e-14);
+  scene.start.velocity = 1e-300;
+  EXPECT_FALSE(never_moves(scene));
+  scene.start = {-1, 0, 0};
+  scene.oscillator = {.forcing = 0.125, .load = -0.75};
+  EXPECT_FALSE(never_moves(scene)) << "it rests on the stop";
+  EXPECT_TRUE(required_effects(scene).lower);
+}
+
 }  // namespace
 }  // namespace clatter

@@ -6,7 +6,7 @@ from matplotlib import colors
 from .data import ESCAPED, FIRST_FAILURE, has_failed
 from .maps import OLIVE, class_map, edges_between, name_colours, name_panel
 from .scales import shown_values, tidy_ticks
-from .names import NO_CONTACT, has_impacts, label, number, plain, short_word, symbol
+from .names import NO_CONTACT, STUCK, has_impacts, label, number, plain, short_word, symbol
 from .style import COLOURS, GREEN, SKY, colour_of, legend_above
 
 STARTS = ("x0", "v0", "phase", "start_period")
@@ -33,8 +33,8 @@ def words_of(output, motion):
     word, regime = output.values("motion_word")[motion], output.values("motion_regime")[motion]
     if output.values("motion_period_ratio")[motion] == 0:
         return "no period" + ", symmetric" * bool(output.values("motion_symmetric")[motion] == 1)
-    if word in NO_CONTACT:
-        return "no impacts"
+    if word in (*NO_CONTACT, STUCK):
+        return "held by friction" if word == STUCK else "no impacts"
     symmetry = " symmetric" if output.values("motion_symmetric")[motion] == 1 else ""
     return f"{plain(regime)}{symmetry}, {short_word(word)}".replace("inf", "∞").replace("*", "∗")
 
@@ -109,9 +109,10 @@ def section_points(axes, output):
 
 def section_of(output, motion):
     """The states of a motion at the forcing phase of the starts, as far as the file has them: its section if that is
-    observed, else the one of the table, which is for phase 0 and the parameters of the example."""
+    observed, else the one of the table, which is for phase 0 and the parameters of the example. A mass that friction
+    holds has a band of them."""
     nothing = np.empty(0), np.empty(0)
-    if motion < 0:
+    if motion < 0 or output.values("motion_word")[motion] == STUCK:
         return nothing
     phase = float(output.scene.get("phase", 0.0))
     if "section_x" in output and float(output.config.get("observe", {}).get("section_phase", 0.0)) == phase:

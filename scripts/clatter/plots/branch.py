@@ -27,6 +27,9 @@ MARKS = {  # special point: its symbol, and whether it is filled
     "maximum harmonic": ("v", True),
     "resonant graze": ("h", False),
     "cusp": ("p", True),
+    "crossing-sliding": ("<", False),
+    "grazing-sliding": (">", False),
+    "switching-sliding": ("8", False),
 }
 CURVES = {  # special point: name and dashes of its curve in the plane of two parameters
     "fold": ("folds", "-"),

@@ -89,7 +89,8 @@ def name_statuses(axes, output, name, color=STOP, shown=True):
     if loose.size and shown:
         kinds = np.unique(loose)  # one name for both: with two the legend is wider than the panel
         title = plain(output.meanings.get(int(kinds[0]), "aperiodic")) if kinds.size == 1 else "no known period"
-        axes.plot([], [], ls="none", marker="o", ms=3.8, mfc="white", mec=color, mew=0.9, label=title)
+        style = {"ls": "none", "marker": "o", "ms": 3.8, "mfc": "white", "mec": color, "mew": 0.9}
+        axes.plot([], [], color=color, label=title, **style)  # one colour in all panels, so one entry in their legend
     failed = has_failed(status)
     if failed.any():
         kinds = ", ".join(plain(output.meanings.get(int(kind), "failed")) for kind in np.unique(status[failed]))

@@ -9,6 +9,7 @@ from matplotlib import mathtext
 
 LONGEST = 12  # letters of a word that is written out
 SHORT = 0.1  # m: lengths that are all below it are written in mm
+STUCK = "(S)"  # the word of a mass that friction holds for good, wherever that is
 NO_CONTACT = ("-", "")  # the words of motion that meets no stop; the empty one in files before 0.3.0
 YES_OR_NO = ("symmetric",)  # what 1 and 0 stand for
 PLACES = ("x", "x_min", "x_max")  # drawn between the stops
@@ -145,8 +146,8 @@ def plain(text):
 
 
 def has_impacts(word):
-    """Whether an impact word has a letter: motion that meets no stop, or stays on one, has none."""
-    return word[:1] in ("L", "U")
+    """Whether an impact word has a letter of a stop: motion that meets no stop, or stays where it is, has none."""
+    return word[:1] != "(" and not {"L", "U"}.isdisjoint(word)
 
 
 def short_word(word):

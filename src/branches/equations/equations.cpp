@@ -33,7 +33,7 @@ bool OrbitEquations::grazes_outside() const {
 Vector OrbitEquations::unknowns_of(const FollowedScene& scene, const Orbit& orbit) const {
   Vector z(unknowns());
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    z[2 * i] = orbit.impacts[i].phase, z[2 * i + 1] = orbit.impacts[i].before / speed_unit_;
+    z[2 * i] = orbit.impacts[i].phase, z[2 * i + 1] = orbit.impacts[i].coordinate() / speed_unit_;
   for (std::size_t k = 0; k < axes_.size(); ++k)
     z[2 * orbit.size() + k] = value_of(scene, axes_[k].parameter) / axes_[k].unit;
   return z;
@@ -42,7 +42,7 @@ Vector OrbitEquations::unknowns_of(const FollowedScene& scene, const Orbit& orbi
 Orbit OrbitEquations::orbit_at(const Vector& z) const {
   Orbit orbit = shape_;
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    orbit.impacts[i].phase = z[2 * i], orbit.impacts[i].before = z[2 * i + 1] * speed_unit_;
+    orbit.impacts[i].phase = z[2 * i], orbit.impacts[i].coordinate() = z[2 * i + 1] * speed_unit_;
   return orbit;
 }
 
@@ -68,14 +68,16 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
     const Flights<First, E> flights(numbers_along<First>(scene, axes_));
     const std::size_t count = orbit.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const FlightEnd<First> end = flights.fly(flight_of<First>(orbit, i));
+      const Flight<First> flight = flight_of<First>(orbit, i);
+      if (flight.leaves == EventKind::stick && !(flights.start(flight) < flight.end)) return false;
+      const FlightEnd<First> end = flights.fly(flight);
       const bool closes = i + 1 == count;
       const std::size_t row = 2 * i, next = closes ? 0 : 2 * (i + 1);
       const double sign = last_is_mirrored(orbit, i) ? -1 : 1;
       out.residual[row] = end.beyond.value;
-      out.residual[row + 1] = end.velocity.value - orbit.impact(i + 1).before;
+      out.residual[row + 1] = end.coordinate.value - orbit.impact(i + 1).coordinate();
       for (const auto& [equation, slope] :
-           {std::pair(row, &end.beyond.slope), std::pair(row + 1, &end.velocity.slope)}) {
+           {std::pair(row, &end.beyond.slope), std::pair(row + 1, &end.coordinate.slope)}) {
         out.slope(equation, 2 * i) += (*slope)[by_begin];
         out.slope(equation, 2 * i + 1) += (*slope)[by_before] * speed_unit_;
         out.slope(equation, next) += (*slope)[by_end];
@@ -84,8 +86,9 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       }
       out.slope(row + 1, next + 1) -= sign * speed_unit_;
     }
+    return true;
   };
-  with_arcs(scene, add_flights, stiffness_varies_);
+  if (!with_arcs(scene, add_flights, stiffness_varies_)) return std::nullopt;
   std::size_t row = 2 * orbit.size();
   for (const Condition& condition : conditions_) {
     if (condition.kind == Condition::Kind::graze)
@@ -96,6 +99,8 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       add_duration(orbit, condition, row, out);
     else if (condition.kind == Condition::Kind::release)
       add_release(scene, orbit.impacts[condition.impact], 2 * condition.impact, row, out);
+    else if (condition.is_of_halt())
+      add_halt(scene, orbit.impacts[condition.impact], condition, row, out);
     else
       add_multiplier(scene, orbit, condition, row, out);
     ++row;
@@ -132,6 +137,27 @@ void OrbitEquations::add_duration(const Orbit& orbit, const Condition& condition
   out.slope(row, 2 * next) += 1;
 }
 
+void OrbitEquations::add_halt(const FollowedScene& scene, const OrbitImpact& halt, const Condition& condition,
+                              std::size_t row, Linearised& out) const {
+  const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
+  const First x = p.middle() + First(halt.place, by_before);
+  const auto left_to_level = [&] {
+    const auto [f, lead] = p.force();
+    const double sign = sign_of(condition.side);
+    const First level = condition.kind == Condition::Kind::kinetic ? p.friction.kinetic : p.friction.static_level,
+                left = level - sign * (p.oscillator.load - p.oscillator.stiffness * x);
+    if (condition.kind == Condition::Kind::tangency) return left - abs(f);
+    return left - sign * f * sin(First(halt.phase, by_begin) + lead);
+  };
+  const First zero = condition.kind == Condition::Kind::on_stop ? x - p.position(condition.side) : left_to_level();
+  const std::size_t unknown = 2 * condition.impact;
+  out.residual[row] = zero.value;
+  out.slope(row, unknown) = zero.slope[by_begin];
+  out.slope(row, unknown + 1) = zero.slope[by_before] * speed_unit_;
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    out.slope(row, 2 * shape_.size() + k) = zero.slope[by_first_axis + k] * axes_[k].unit;
+}
+
 void OrbitEquations::add_release(const FollowedScene& scene, const OrbitImpact& impact, std::size_t phase,
                                  std::size_t row, Linearised& out) const {
   const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
@@ -156,7 +182,7 @@ void OrbitEquations::add_multiplier(const FollowedScene& scene, const Orbit& all
     const Flights<Second, E> flights(numbers_along<Second>(scene, axes_));
     for (std::size_t i = 0; i < count; ++i) {
       const FlightEnd<Second> end = flights.fly(flight_of<Second>(orbit, i));
-      links.push_back(link_of(end.beyond.slope, end.velocity.slope, last_is_mirrored(orbit, i)));
+      links.push_back(link_of(end.beyond.slope, end.coordinate.slope, last_is_mirrored(orbit, i)));
     }
   };
   const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
@@ -200,6 +226,16 @@ void OrbitEquations::add_multiplier(const FollowedScene& scene, const Orbit& all
   }
   for (std::size_t k = 0; k < axes_.size(); ++k)
     out.slope(row, parameters + k) += axes_[k].unit * c_before[count] * determinant.slope[by_first_axis + k];
+  for (std::size_t i = 0; i < count; ++i) {  // the accelerations at a reversal
+    const OrbitImpact& halt = orbit.impacts[i];
+    if (halt.event != EventKind::reversal) continue;
+    Orbit others = orbit;
+    others.impacts.erase(others.impacts.begin() + static_cast<std::ptrdiff_t>(i));
+    const First factor = determinant_of(p, others) *
+                         reversal_factor(p, halt.side, First(halt.phase, by_begin), First(halt.place, by_before));
+    out.slope(row, unknown_of(i)) += c_before[count] * factor.slope[by_begin];
+    out.slope(row, unknown_of(i) + 1) += c_before[count] * factor.slope[by_before] * speed_unit_;
+  }
   for (std::size_t i = 0; i < count; ++i) {  // longer contacts with a soft stop take more
     if (!presses(orbit.impacts[i].event)) continue;
     const double longer = -2 * p.soft_stop(orbit.impacts[i].side).damping.value / p.oscillator.frequency.value *

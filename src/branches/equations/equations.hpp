@@ -19,6 +19,10 @@ struct Condition {
     graze,       ///< impact number `impact` has no speed
     force,       ///< a soft stop's force, zero at event number `impact`, doesn't change there
     duration,    ///< the flight from event number `impact` on lasts `duration`
+    level,       ///< at event number `impact`, a halt, the other forces are at the static level of friction
+    kinetic,     ///< the same with the kinetic level
+    tangency,    ///< at the place of that halt they only just come to that level
+    on_stop,     ///< the place of that halt is that of a stop
     release      ///< the force on the mass is zero at impact number `impact`, after which it may come to rest if R = 0
   };
   Kind kind = Kind::multiplier;
@@ -26,13 +30,17 @@ struct Condition {
   std::size_t impact = 0;
   std::optional<std::size_t> without{};  ///< the multiplier is that of the orbit without this impact, which grazes
   double duration = 0.0;                 ///< of the forcing phase, rad
+  Side side = Side::none;                ///< to which the other forces push the halting mass; that stop
+
+  [[nodiscard]] bool is_of_halt() const {
+    return kind == Kind::level || kind == Kind::kinetic || kind == Kind::tangency || kind == Kind::on_stop;
+  }
 };
 
 /// The equations of periodic motion with given impacts (multiple shooting over arcs): every flight ends on the stop of
-/// the next impact, with its velocity. Unknowns are phase and velocity of each impact, then one or two parameters, in
-/// units of the speed and the widths that the constructor is given. They hold for motion through stops, too: whether no
-/// flight is cut short is another question
-/// (`violation`).
+/// the next impact, with its velocity, or halts in its place. Unknowns are phase and velocity of each impact, or phase
+/// and place of each halt, then one or two parameters, in units of the speed and the widths that the constructor is
+/// given. They hold for motion through stops, too: whether no flight is cut short is another question (`violation`).
 class OrbitEquations {
  public:
   /// One parameter, or two, in the user's units; its unit here is the width of its range.
@@ -73,6 +81,8 @@ class OrbitEquations {
  private:
   void add_release(const FollowedScene& scene, const OrbitImpact& impact, std::size_t phase, std::size_t row,
                    Linearised& out) const;
+  void add_halt(const FollowedScene& scene, const OrbitImpact& halt, const Condition& condition, std::size_t row,
+                Linearised& out) const;
   void add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const;
   void add_force(const FollowedScene& scene, const OrbitImpact& event, std::size_t unknown, std::size_t row,
                  Linearised& out) const;
@@ -95,7 +105,7 @@ class OrbitEquations {
 struct ImpactMap {
   double denominator = 1.0;                           ///< product of velocity over nu at all impacts
   double numerator[2][2] = {{1.0, 0.0}, {0.0, 1.0}};  ///< [phase, velocity][phase, velocity]
-  double determinant = 1.0;                           ///< R^(2n) e^(-2 h T): of the map itself
+  double determinant = 1.0;                           ///< of the map itself, by `determinant_of`
 
   [[nodiscard]] double trace() const { return (numerator[0][0] + numerator[1][1]) / denominator; }
   /// Zero if `multiplier`, +1 or -1, is a multiplier; finite in a graze.

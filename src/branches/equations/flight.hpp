@@ -2,11 +2,16 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "branches/equations/orbit.hpp"
 #include "branches/followed_scene.hpp"
+#include "math/number.hpp"
 #include "motion/arc.hpp"
+#include "motion/dry_friction.hpp"
 #include "motion/soft_contact.hpp"
 #include "scene/smooth_effects.hpp"
 
@@ -23,7 +28,8 @@ decltype(auto) with_arcs(const Scene& scene, Function&& function, bool stiffness
 }
 
 /// A flight begins just after the impact of velocity `before` on stop `from` at phase `begin`, in rad, and is looked at
-/// when the phase is `end`. At a soft stop it begins or ends with another event.
+/// when the phase is `end`. At a soft stop it begins or ends with another event. From a halt, of which `before` is the
+/// place, it goes to the side `from`; after a stick from its release on.
 template <class Number>
 struct Flight {
   Side from;
@@ -47,9 +53,9 @@ template <class Number>
 struct FlightEnd {
   /// x less the position of the stop: 0 if the flight ends on it. At separations and renewals the force of the stop
   /// over its stiffness; that over the duration if it is zero at the beginning, too, so that a flight without duration
-  /// is no solution.
+  /// is no solution. At a halt the velocity.
   Number beyond;
-  Number velocity;  ///< before the impact
+  Number coordinate;  ///< velocity before the impact; at a halt the place
 };
 
 /// The flights at given parameters. Arcs refer to it.
@@ -67,8 +73,9 @@ class Flights {
   template <class Function>
   decltype(auto) with_arc(const Flight<Number>& flight, Function&& function) const {
     if (flight.leaves == EventKind::impact)
-      return function(
-          arc_from(p_.position(flight.from), Number(-p_.restitution(flight.from) * flight.before), flight.begin));
+      return function(arc_from(towards(opposite(flight.from)), p_.position(flight.from),
+                               Number(-p_.restitution(flight.from) * flight.before), flight.begin));
+    if (halts(flight.leaves)) return function(arc_from_halt(flight));
     const motion::SoftStop<Number> stop = p_.soft_stop(flight.from);
     const Number offset = flight.leaves == EventKind::touch ? Number(0) : Number(-stop.relaxation() * flight.before);
     return with_constants(presses(flight.leaves) ? flight.from : Side::none, [&](const auto& constants) {
@@ -81,13 +88,40 @@ class Flights {
     return pressed == Side::none ? function(constants_) : soft_.with_constants(pressed, function);
   }
 
+  /// The static level of friction less the force that pushes a mass that halts at a place to a side: friction holds it
+  /// against that if it isn't negative.
+  [[nodiscard]] Number left_to_level(const Number& place, const Number& phase, Side side) const {
+    return p_.friction.static_level - sign_of(side) * force_at(Number(p_.middle() + place), phase);
+  }
+  /// The forcing phase, rad, from which on so strong a push rises beyond the static level (the guide's formula), less
+  /// that at which the mass halts: negative if that is later, up to the push's crest. Infinite: it never or always is
+  /// beyond.
+  [[nodiscard]] Number hold(const Number& place, const Number& phase, Side side) const {
+    using std::abs, std::atan, std::sqrt;
+    constexpr double turn = 2 * std::numbers::pi, quarter = turn / 4;
+    const double sign = sign_of(side);
+    const Number needed = p_.friction.static_level - sign * constants_.constant_force(Number(p_.middle() + place)),
+                 sine = needed / abs(constants_.f), rising = atan(sine / sqrt((1 - sine) * (1 + sine)));
+    if (sine >= 1 || sine <= -1) return (sine > 0 ? 1 : -1) * std::numeric_limits<double>::infinity();
+    const Number of_push = phase + lead_ + (sign * constants_.f < 0 ? std::numbers::pi : 0.0);
+    const double turns = std::round((static_cast<double>(of_push) + quarter) / turn);
+    return rising - (of_push - turn * turns);
+  }
+  /// The phase at which motion begins after the event that a flight begins with.
+  [[nodiscard]] Number start(const Flight<Number>& flight) const {
+    if (flight.leaves != EventKind::stick) return flight.begin;
+    return flight.begin + hold(flight.before, flight.begin, flight.from);
+  }
+
   /// Flies through stops, if it meets any.
   [[nodiscard]] FlightEnd<Number> fly(const Flight<Number>& flight) const {
-    const Number time = (flight.end - flight.begin) / p_.oscillator.frequency;
+    const Number time = (flight.end - start(flight)) / p_.oscillator.frequency;
     return with_arc(flight, [&](const auto& arc) -> FlightEnd<Number> {
       if (flight.may_vanish(p_)) return fly_beyond(arc, flight, time);
       const motion::Motion<Number> end = arc.at(time);
-      Number beyond = flight.from == flight.to ? end.offset : Number(end.x - p_.position(flight.to));
+      if (halts(flight.arrives)) return {end.v, Number(end.x - p_.middle())};
+      const bool comes_back = flight.from == flight.to && !halts(flight.leaves);
+      Number beyond = comes_back ? end.offset : Number(end.x - p_.position(flight.to));
       if (flight.arrives == EventKind::separation || flight.arrives == EventKind::renewal)
         beyond += p_.soft_stop(flight.to).relaxation() * end.v;
       return {beyond, end.v};
@@ -102,7 +136,7 @@ class Flights {
     const Number sine = sin(lead_), cosine = cos(lead_);
     if (pressed == Side::none) {
       const Response<Number> of_force = free_response();
-      return function(arc_from(Number(constants_.equilibrium + of_force.displacement(sine, cosine)),
+      return function(arc_from(constants_, Number(constants_.equilibrium + of_force.displacement(sine, cosine)),
                                of_force.velocity(p_.oscillator.frequency, sine, cosine), Number(0)),
                       of_force);
     }
@@ -121,6 +155,11 @@ class Flights {
     return constants_.force(sin(phase + lead_)) - constants_.spring(x);
   }
 
+  /// The acceleration of a mass that halts at a place, as it slips towards a side.
+  [[nodiscard]] Number acceleration(const Number& place, const Number& phase, Side side) const {
+    return force_at(Number(p_.middle() + place), phase) - sign_of(side) * p_.friction.kinetic;
+  }
+
   /// Phase of the force less that of the shaking, rad.
   [[nodiscard]] const Number& lead() const { return lead_; }
 
@@ -130,7 +169,14 @@ class Flights {
         lead_(force.lead),
         constants_(motion::ArcConstants<Number, E>::of(p_.oscillator.damping, force.amplitude, p_.oscillator.frequency,
                                                        p_.oscillator.load, p_.oscillator.stiffness)),
-        soft_(constants_, p_.stops) {}
+        soft_(constants_, p_.stops) {
+    if (!is_always_zero(p_.friction.kinetic)) slips_.emplace(constants_, p_.friction, p_.stops);
+  }
+
+  /// The constants of motion towards a side.
+  [[nodiscard]] const motion::ArcConstants<Number, E>& towards(Side side) const {
+    return slips_ ? slips_->towards(side) : constants_;
+  }
 
   [[nodiscard]] Response<Number> free_response() const {
     if constexpr (E.stiffness)
@@ -171,11 +217,21 @@ class Flights {
     return {divided ? rate : Number(m.offset + relaxation * m.v + rate * time), m.v + mean_a * time};
   }
 
-  [[nodiscard]] motion::Arc<Number, E> arc_from(const Number& x, const Number& v, const Number& phase) const {
+  [[nodiscard]] motion::Arc<Number, E> arc_from(const motion::ArcConstants<Number, E>& constants, const Number& x,
+                                                const Number& v, const Number& phase) const {
     using std::cos, std::sin;
     const Number of_force = phase + lead_, sine = sin(of_force), cosine = cos(of_force);
-    return {constants_,
-            {Number(0), x, v, constants_.acceleration(Number(x - constants_.equilibrium), v, sine), sine, cosine}};
+    return {constants,
+            {Number(0), x, v, constants.acceleration(Number(x - constants.equilibrium), v, sine), sine, cosine}};
+  }
+  /// At a release the acceleration is the difference of the levels of friction.
+  [[nodiscard]] motion::Arc<Number, E> arc_from_halt(const Flight<Number>& flight) const {
+    const motion::Arc<Number, E> arc =
+        arc_from(towards(flight.from), Number(p_.middle() + flight.before), Number(0), start(flight));
+    if (flight.leaves != EventKind::stick) return arc;
+    motion::Motion<Number> released = arc.start();
+    released.a = sign_of(flight.from) * (p_.friction.static_level - p_.friction.kinetic);
+    return {arc.constants(), released};
   }
   /// An arc that begins a little way off a soft stop.
   template <Effects of>
@@ -192,6 +248,7 @@ class Flights {
   Number lead_;
   motion::ArcConstants<Number, E> constants_;
   motion::SoftContact<Number> soft_;
+  std::optional<motion::Slips<Number, E>> slips_{};  ///< with dry friction
 };
 
 }  // namespace clatter::branches

@@ -27,13 +27,13 @@ template <class Number>
 Flight<Number> flight_of(const Orbit& orbit, std::size_t i) {
   const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
   if constexpr (std::is_same_v<Number, Second>)
-    return {from.side, variable(from.phase, by_begin), variable(from.before, by_before),
+    return {from.side, variable(from.phase, by_begin), variable(from.coordinate(), by_before),
             to.side,   variable(to.phase, by_end),     from.event,
             to.event};
   else if constexpr (std::is_same_v<Number, double>)
-    return {from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
+    return {from.side, from.phase, from.coordinate(), to.side, to.phase, from.event, to.event};
   else
-    return {from.side, Number(from.phase, by_begin), Number(from.before, by_before),
+    return {from.side, Number(from.phase, by_begin), Number(from.coordinate(), by_before),
             to.side,   Number(to.phase, by_end),     from.event,
             to.event};
 }
@@ -136,7 +136,18 @@ std::vector<Link<Number>> links_of_states(const FollowedScene& scene, const Orbi
   return links;
 }
 
-/// R^(2n) e^(-2 h T) of the impacts of an orbit as it is kept, less by e^(-2 h_s t) in a contact with a soft stop.
+/// The acceleration after a reversal at a place, towards a side, over that before (eq. 64).
+template <class Number>
+Number reversal_factor(const SceneNumbers<Number>& p, Side to, const Number& phase, const Number& place) {
+  using std::sin;
+  const auto [f, lead] = p.force();
+  const Number push = f * sin(phase + lead) + p.oscillator.load - p.oscillator.stiffness * (p.middle() + place),
+               rubs = sign_of(to) * p.friction.kinetic;
+  return (push - rubs) / (push + rubs);
+}
+
+/// R^(2n) e^(-2 h T) of the impacts of an orbit as it is kept, less by e^(-2 h_s t) in a contact with a soft stop, by
+/// the accelerations after and before each reversal; 0 with a stick.
 template <class Number>
 Number determinant_of(const SceneNumbers<Number>& p, const Orbit& orbit) {
   using std::exp;
@@ -149,6 +160,9 @@ Number determinant_of(const SceneNumbers<Number>& p, const Orbit& orbit) {
     const OrbitImpact& impact = orbit.impacts[i];
     if (impact.event == EventKind::impact) determinant *= p.restitution(impact.side) * p.restitution(impact.side);
     if (presses(impact.event)) press(impact.side, orbit.impact(i + 1).phase - impact.phase);
+    if (impact.event == EventKind::stick) determinant = Number(0);
+    if (impact.event == EventKind::reversal)
+      determinant *= reversal_factor(p, impact.side, Number(impact.phase), Number(impact.place));
   }
   return determinant;
 }

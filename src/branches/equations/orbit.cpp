@@ -12,7 +12,7 @@ using observables::ImpactWord;
 Side mirror_image(Side side) { return static_cast<Side>(-sign_of(side)); }
 
 OrbitImpact mirrored(OrbitImpact impact) {
-  return {mirror_image(impact.side), impact.phase, -impact.before, impact.rest, impact.event};
+  return {mirror_image(impact.side), impact.phase, -impact.before, impact.rest, impact.event, -impact.place};
 }
 
 OrbitImpact later(OrbitImpact impact, double advance) {
@@ -45,14 +45,31 @@ OrbitImpact Orbit::impact(std::size_t i) const {
   return later(mirrored ? branches::mirrored(impacts[i - size()]) : impacts[i - size()], advance());
 }
 
+Side Orbit::heading_before(std::size_t i) const {
+  if (i > 0) return impacts[i - 1].heading();
+  const Side last = impacts.back().heading();
+  return mirrored ? opposite(last) : last;
+}
+
 bool Orbit::meets_soft_stop() const {
-  return pressed != Side::none ||
-         std::ranges::any_of(impacts, [](const OrbitImpact& impact) { return impact.event != EventKind::impact; });
+  return pressed != Side::none || std::ranges::any_of(impacts, [](const OrbitImpact& impact) {
+           return impact.event != EventKind::impact && !branches::halts(impact.event);
+         });
+}
+
+bool Orbit::halts() const {
+  return std::ranges::any_of(impacts, [](const OrbitImpact& impact) { return branches::halts(impact.event); });
 }
 
 bool Orbit::changes_nothing(std::size_t i) const {
   const EventKind event = impacts[i].event, before = impacts[(i + size() - 1) % size()].event;
   return event == EventKind::impact || presses(event) == presses(before);
+}
+
+Orbit Orbit::from_event(std::size_t i) const {
+  Orbit orbit = *this;
+  for (std::size_t k = 0; k < size(); ++k) orbit.impacts[k] = impact(i + k);
+  return orbit;
 }
 
 Orbit Orbit::whole() const {
@@ -71,9 +88,12 @@ Orbit Orbit::repeated(int times) const {
 }
 
 Orbit Orbit::half_if_same(double tolerance, bool symmetric_scene) const {
+  double farthest = 0;
+  for (const OrbitImpact& impact : impacts) farthest = std::max(farthest, std::abs(impact.place));
   const auto same = [&](const OrbitImpact& a, const OrbitImpact& b) {
     return a.side == b.side && a.event == b.event && std::abs(a.phase - b.phase) <= tolerance &&
-           std::abs(a.before - b.before) <= tolerance * std::max(std::abs(a.before), std::abs(b.before));
+           std::abs(a.before - b.before) <= tolerance * std::max(std::abs(a.before), std::abs(b.before)) &&
+           std::abs(a.place - b.place) <= tolerance * farthest;
   };
   if (pressed != Side::none) return {{}, 2, false, pressed};
   if (size() == 0) return symmetric_scene ? Orbit{{}, 1, true} : Orbit{{}, 2, false};
@@ -90,6 +110,12 @@ Orbit Orbit::with(const OrbitImpact& impact, std::size_t after) const {
   Orbit orbit = *this;
   orbit.pressed = Side::none;  // from now on the events tell when it is
   orbit.impacts.insert(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(after), impact);
+  return orbit;
+}
+
+Orbit Orbit::with_event(std::size_t i, EventKind event) const {
+  Orbit orbit = *this;
+  orbit.impacts[i].event = event;
   return orbit;
 }
 
@@ -115,7 +141,8 @@ Orbit Orbit::once_with_graze(std::size_t i, bool symmetric_scene) const {
 
 /// Motion without a letter whose soft stop is left or meets the mass again does so beyond the stop's position.
 std::string Orbit::word() const {
-  return ImpactWord::word_of(contacts_of(*this), impacts.empty() ? pressed : impacts.front().side);
+  const Side soft = meets_soft_stop() && !impacts.empty() ? impacts.front().side : pressed;
+  return ImpactWord::word_of(contacts_of(*this), soft);
 }
 std::string Orbit::regime() const { return ImpactWord::regime_of(contacts_of(*this), period_ratio()); }
 

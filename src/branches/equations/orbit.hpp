@@ -18,13 +18,26 @@ using EventKind = motion::Event::Kind;
   return event == EventKind::touch || event == EventKind::renewal;
 }
 
-/// One impact of a periodic motion, or another event on a stop, or the instant at which it comes to rest there.
+/// Whether the mass halts at an event: dry friction ends a slip, and the velocity is 0.
+[[nodiscard]] constexpr bool halts(EventKind event) {
+  return event == EventKind::stick || event == EventKind::reversal;
+}
+
+/// One impact of a periodic motion, or another event on a stop, or the instant at which it comes to rest there, or at
+/// which it halts away from the stops.
 struct OrbitImpact {
-  Side side = Side::none;
-  double phase = 0.0;   ///< forcing phase, rad, growing from impact to impact
-  double before = 0.0;  ///< velocity before the impact; at a soft stop it goes on
-  double rest = 0.0;    ///< forcing phase, rad, for which the mass rests from then on
+  Side side = Side::none;  ///< the stop; of a halt the side that the mass slips to next
+  double phase = 0.0;      ///< forcing phase, rad, growing from impact to impact
+  double before = 0.0;     ///< velocity before the impact; at a soft stop it goes on
+  double rest = 0.0;       ///< forcing phase, rad, for which the mass rests from then on
   EventKind event = EventKind::impact;
+  double place = 0.0;  ///< of a halt: displacement from `SceneNumbers::middle`
+
+  /// The unknown beside the phase: the velocity before the event, or the place of a halt.
+  [[nodiscard]] double coordinate() const { return halts(event) ? place : before; }
+  [[nodiscard]] double& coordinate() { return halts(event) ? place : before; }
+  /// The side that the mass moves to after a halt, or a rebound from a rigid stop.
+  [[nodiscard]] Side heading() const { return halts(event) ? side : opposite(side); }
 
   /// Whether it is a contact from outside: an impact, or a touch.
   [[nodiscard]] bool is_contact() const { return event == EventKind::impact || event == EventKind::touch; }
@@ -44,17 +57,22 @@ struct Orbit {
   [[nodiscard]] bool rests() const;  ///< on a stop, once in a period or more often
   [[nodiscard]] bool next_is_rest(std::size_t i) const { return i + 1 < size() && impacts[i + 1].rest > 0; }
   [[nodiscard]] bool meets_soft_stop() const;
+  [[nodiscard]] bool halts() const;  ///< by dry friction, away from the stops
   /// Whether the motion is the same without the event i, which grazes.
   [[nodiscard]] bool changes_nothing(std::size_t i) const;
   [[nodiscard]] double advance() const;       ///< of the forcing phase, rad
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
   /// Impact i = 0 ... size: the last one is the first, half a period or a period later.
   [[nodiscard]] OrbitImpact impact(std::size_t i) const;
+  /// The side that the mass moves to before event i, if it is one of rigid stops and dry friction.
+  [[nodiscard]] Side heading_before(std::size_t i) const;
 
+  [[nodiscard]] Orbit from_event(std::size_t i) const;  ///< the same, with event i as its first
   [[nodiscard]] Orbit whole() const;              ///< both halves, if one is kept
   [[nodiscard]] Orbit repeated(int times) const;  ///< of the whole, as if it repeated only after so many periods
   [[nodiscard]] Orbit half_if_same(double tolerance, bool symmetric_scene) const;  ///< kept as a half, if it can be
   [[nodiscard]] Orbit with(const OrbitImpact& impact, std::size_t after) const;
+  [[nodiscard]] Orbit with_event(std::size_t i, EventKind event) const;  ///< event i is another one
   [[nodiscard]] Orbit without(std::size_t i) const;  ///< motion without impacts has the force's period
   /// The same, in one repetition of what is left without impact i, which has no speed: a motion over many periods that
   /// grazes in one of them grazes in all.

@@ -24,11 +24,20 @@ void each_flight(const FollowedScene& scene, const Orbit& orbit, Function&& func
       const OrbitImpact to = orbit.impact(i + 1);
       if (to.rest > 0) continue;  // the flights that are left of a chatter reach nowhere
       from.phase += from.rest;
-      const Flight<double> flight{from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
-      flights.with_arc(flight, [&](const auto& arc) {
-        function(arc, from.phase, (to.phase - from.phase) / flights.constants().nu);
-      });
+      const Flight<double> flight{from.side, from.phase, from.coordinate(), to.side, to.phase, from.event, to.event};
+      const double start = flights.start(flight);
+      flights.with_arc(flight,
+                       [&](const auto& arc) { function(arc, start, (to.phase - start) / flights.constants().nu); });
     }
+  });
+}
+
+/// The forcing phase, rad, for which a stick lasts; 0 of any other event.
+double hold(const FollowedScene& scene, const OrbitImpact& event) {
+  if (event.event != EventKind::stick) return 0.0;
+  return with_arcs(scene, [&]<Effects E>() {
+    const Flights<double, E> flights{numbers_of<double>(scene)};
+    return flights.hold(event.place, event.phase, event.side);
   });
 }
 
@@ -68,11 +77,16 @@ PhasePoint state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit) {
     state = {m.x, m.v};
   });
   if (state) return *state;
-  for (const OrbitImpact& impact : whole.impacts)  // it rests then, or is about to
-    if (std::ceil(impact.phase / turn) * turn <= impact.phase + impact.rest)
-      return {numbers_of<double>(scene).position(impact.side), 0.0};
-  const auto rest = std::ranges::find_if(whole.impacts, [](const OrbitImpact& impact) { return impact.rest > 0; });
-  return {numbers_of<double>(scene).position(rest->side), 0.0};
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  const auto standing = [&](const OrbitImpact& impact) -> PhasePoint {
+    return {halts(impact.event) ? p.middle() + impact.place : p.position(impact.side), 0.0};
+  };
+  for (const OrbitImpact& impact : whole.impacts)  // it rests then, or sticks, or is about to
+    if (std::ceil(impact.phase / turn) * turn <= impact.phase + impact.rest + hold(scene, impact))
+      return standing(impact);
+  const auto rest = std::ranges::find_if(
+      whole.impacts, [](const OrbitImpact& impact) { return impact.rest > 0 || impact.event == EventKind::stick; });
+  return standing(*rest);
 }
 
 observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& orbit) {
@@ -81,7 +95,7 @@ observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& or
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) { extrema.arc(arc, begin, length); });
   const SceneNumbers<double> p = numbers_of<double>(scene);
   for (const OrbitImpact& impact : whole.impacts) {
-    if (impact.event != EventKind::impact) continue;  // the arcs have all
+    if (impact.event != EventKind::impact) continue;  // the arcs have all others
     const double x = p.position(impact.side);
     extrema.include({x, x}, {impact.before, impact.before});
   }

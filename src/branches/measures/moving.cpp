@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "branches/equations/links.hpp"
+#include "branches/measures/friction_harmonic.hpp"
 #include "branches/measures/soft_contacts.hpp"
 
 namespace clatter::branches {
@@ -38,9 +39,9 @@ Moving moving(const OrbitEquations& equations, const Vector& point, const Vector
   Moving m = motion_at(scene, orbit, numbers_of<Along>(scene, vary));
   m.stiffness_varies = equations.stiffness_varies();
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    Along phase(orbit.impacts[i].phase), before(orbit.impacts[i].before);
-    phase.slope[0] = tangent[2 * i], before.slope[0] = tangent[2 * i + 1] * equations.speed_unit();
-    m.impacts.push_back({orbit.impacts[i].side, phase, before, false, orbit.impacts[i].event});
+    Along phase(orbit.impacts[i].phase), coordinate(orbit.impacts[i].coordinate());
+    phase.slope[0] = tangent[2 * i], coordinate.slope[0] = tangent[2 * i + 1] * equations.speed_unit();
+    m.impacts.push_back({orbit.impacts[i].side, phase, coordinate, false, orbit.impacts[i].event});
   }
   return m;
 }
@@ -81,7 +82,7 @@ Moving moving_from_release(const FollowedScene& scene, const Orbit& orbit, Param
                  number.slope[by_parameter];
         };
         end.slope[0] = -along(flown.beyond) / flown.beyond.slope[by_end];
-        speed.slope[0] = along(flown.velocity) + flown.velocity.slope[by_end] * end.slope[0];
+        speed.slope[0] = along(flown.coordinate) + flown.coordinate.slope[by_end] * end.slope[0];
         m.impacts.push_back({impact.side, end, speed, orbit.next_is_rest(i), impact.event});
       }
       begin = end, before = speed, last = impact;
@@ -115,7 +116,7 @@ Along impact_power(const Moving& moving) {
 
 Along harmonic(const Moving& moving) {
   // (k - nu^2 + 2 i h nu) X = F + (1/T) sum of (v+ - v-) e^{-i phase}, F = -i f e^{i lead}/2, and the force of soft
-  // stops likewise; mirror images add the same
+  // stops and of friction likewise; mirror images add the same
   const SceneNumbers<Along>& p = moving.p;
   const LeadingForce<Along> force = p.force();
   Along re = force.amplitude * sin(force.lead) / 2, im = -force.amplitude * cos(force.lead) / 2;
@@ -127,6 +128,10 @@ Along harmonic(const Moving& moving) {
   if (moving.soft) {
     const SoftContacts contacts = soft_contacts(moving);
     re += contacts.re / moving.period, im += contacts.im / moving.period;
+  }
+  if (has_friction(moving.scene.friction)) {
+    const Harmonic friction = friction_harmonic(moving);
+    re += friction.re / moving.period, im += friction.im / moving.period;
   }
   const bool unit_spring = p.oscillator.stiffness == 1 && p.oscillator.stiffness.is_constant();
   const Along a = unit_spring ? (1 - p.oscillator.frequency) * (1 + p.oscillator.frequency)

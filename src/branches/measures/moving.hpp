@@ -14,8 +14,8 @@ struct Moving {
   SceneNumbers<Along> p;
   struct Impact {
     Side side;
-    Along phase, before;
-    bool rests;  ///< the next contact is a rest: this impact and those that follow lose all
+    Along phase, before;  ///< the place of a halt instead
+    bool rests;           ///< the next contact is a rest: this impact and those that follow lose all
     EventKind event = EventKind::impact;
   };
   std::vector<Impact> impacts;

@@ -29,11 +29,6 @@ double shortest_rest(const Orbit& orbit) {
 
 }  // namespace
 
-void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Orbit& orbit) {
-  std::erase_if(waiting,
-                [&](const Waiting& one) { return one.special == special && one.orbit.word() == orbit.word(); });
-}
-
 RestingBranch::RestingBranch(const StartProblem& problem, const BranchSettings& settings, bool symmetric,
                              double speed_unit, Record& record, std::deque<Waiting>& waiting)
     : problem_(problem),

@@ -4,28 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "branches/record.hpp"
+#include "branches/waiting.hpp"
 
 namespace clatter::branches {
-
-/// A branch that waits to be followed.
-struct Waiting {
-  FollowedScene scene;
-  Orbit orbit;
-  std::optional<Vector> direction{};     ///< along which it begins; nothing: both ways
-  std::optional<std::size_t> special{};  ///< that it comes from
-  std::int64_t generation = 0;
-  int heading = 0;                       ///< up or down the parameter; 0: both ways
-  std::optional<std::size_t> cascade{};  ///< the branch that came near it through ever more grazes
-  int cascade_side = 0;                  ///< on which that lies: up or down the parameter
-  std::optional<std::size_t> opens{};    ///< the event with which a contact with a soft stop begins or is interrupted
-  /// The heading, up or down the parameter, of the branch that came to the graze it begins at: if it turns back there,
-  /// it is born. 0: it goes on whatever its heading is.
-  int came = 0;
-};
-
-/// A branch that came to its end in a special point needn't begin there any more.
-void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Orbit& orbit);
 
 /// Follows motion that rests. It is a function of the parameter, the run from its release, and walked along that.
 class RestingBranch {

@@ -33,35 +33,58 @@ Graze Touch::graze() const {
   return {orbit, impact, {within ? Condition::Kind::force : Condition::Kind::graze, 1, impact}};
 }
 
-std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& walk, double step) {
+std::optional<Narrowed> narrowed(const OrbitEquations& equations, const Walk& walk, double step) {
   double good = 0.0, bad = step;
   std::optional<Violation> found;
-  Touch touch{walk.here(), {}, {}};
+  Narrowed between{walk.here(), {}, {}};
   for (int halving = 0; halving < 40 && bad - good > 1e-7 * step; ++halving) {
     const double middle = halving == 0 ? bad : (good + bad) / 2;
     const auto point = walk.after(middle);
     if (!point) break;  // near a singular point of the equations
     if (const auto violated = violation(equations, point->at))
-      bad = middle, found = violated, touch.beyond = *point;
+      bad = middle, found = violated, between.beyond = *point;
     else
-      good = middle, touch.last_good = *point;
+      good = middle, between.last_good = *point;
   }
   if (!found) return std::nullopt;
-  touch.orbit = equations.orbit_at(touch.beyond.at);
-  touch.impact = found->impact;
-  touch.appears = found->kind == Violation::Kind::passes_through;
-  touch.turns = found->kind == Violation::Kind::pulls && presses(touch.orbit.impacts[touch.impact].event);
-  if (touch.appears) {
+  between.violated = *found;
+  return between;
+}
+
+Touch touch_of(const OrbitEquations& equations, const Narrowed& between) {
+  Touch touch{between.last_good, between.beyond, equations.orbit_at(between.beyond.at)};
+  const Violation& found = between.violated;
+  touch.impact = found.impact;
+  touch.appears = found.kind == Violation::Kind::passes_through;
+  touch.turns = found.kind == Violation::Kind::pulls && presses(touch.orbit.impacts[touch.impact].event);
+  touch.halts = has_friction(equations.scene_at(between.beyond.at).friction);
+  if (touch.appears && touch.halts) {
+    touch.impact = (found.impact + 1) % touch.orbit.size();
+    OrbitImpact& halt = touch.orbit.impacts[touch.impact];
+    halt = {opposite(halt.side), halt.phase};
+  } else if (touch.appears) {
     const bool first = touch.orbit.size() == 0;
-    touch.impact = first ? 0 : found->impact + 1;
-    touch.orbit = touch.orbit.with(found->turning, touch.impact);
+    touch.impact = first ? 0 : found.impact + 1;
+    touch.orbit = touch.orbit.with(found.turning, touch.impact);
     if (first && touch.orbit.mirrored) touch.orbit = near_phase_zero(touch.orbit);
-  } else if (found->kind == Violation::Kind::ends_early) {
-    const std::size_t first = found->impact;
+  } else if (found.kind == Violation::Kind::ends_early) {
+    const std::size_t first = found.impact;
     touch.orbit = with_graze(touch.orbit, first), touch.vanishes = first;
     touch.impact = first + 1 < equations.shape().size() ? first : first - 1;
   }
   return touch;
+}
+
+std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& walk, double step) {
+  const auto between = narrowed(equations, walk, step);
+  return between ? std::optional(touch_of(equations, *between)) : std::nullopt;
+}
+
+Orbit halting_at_stop(const FollowedScene& scene, Orbit orbit, std::size_t impact) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  OrbitImpact& halt = orbit.impacts[impact];
+  halt = {opposite(halt.side), halt.phase, 0.0, 0.0, EventKind::reversal, p.position(halt.side) - p.middle()};
+  return orbit;
 }
 
 }  // namespace clatter::branches

@@ -4,28 +4,12 @@
 #include <cmath>
 
 #include "branches/equations/flight.hpp"
+#include "branches/walk/flight_end.hpp"
+#include "branches/walk/slip_violation.hpp"
 #include "motion/contact.hpp"
 
 namespace clatter::branches {
 namespace {
-
-using Margin = motion::Margin<double>;
-
-/// The instant from `s` on at which a margin that has fallen below zero is least.
-template <Effects E>
-double turning_time(const motion::Arc<double, E>& arc, const Margin& margin, double s) {
-  for (int iteration = 0; iteration < 60; ++iteration) {
-    const motion::Motion<double> m = arc.at(s);
-    // on as long as it falls; a step no longer than a small part of a cycle
-    const double most = 0.1 / arc.constants().rate, falls = -margin.slope(m);
-    double curvature = -margin.place * m.a;
-    if (margin.speed != 0) curvature -= margin.speed * arc.constants().jerk(m);
-    const double step = curvature < 0 ? std::clamp(-falls / curvature, -most, most) : falls > 0 ? most : -most;
-    s += step;
-    if (std::abs(step) <= 1e-13 * (1 + s)) break;
-  }
-  return s;
-}
 
 /// A flight that is looked at: the event that it begins with, and its end.
 struct Path {
@@ -44,12 +28,6 @@ std::optional<Violation> passes_through(const motion::Arc<double, E>& arc, const
   const double v = turns == EventKind::impact ? 0.0 : arc.at(turn).v;
   return Violation{
       Violation::Kind::passes_through, path.number, {side, path.begin + arc.constants().nu * turn, v, 0.0, turns}};
-}
-
-/// A soft contact is found as early as its displacement's rounding over its speed.
-bool is_at_end(double elapsed, double length, double x, double speed, double nu) {
-  const double late = (1e-11 + 1e-12 * (1 + std::abs(x)) / std::max(std::abs(speed), 1e-12)) / nu;
-  return length - elapsed <= late + 1e-9 * length;
 }
 
 template <Effects E>
@@ -159,6 +137,7 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
 }  // namespace
 
 std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
+  if (has_friction(scene.friction) || orbit.halts()) return slip_violation(scene, orbit, grazing);
   // next to its double zero in a graze, the sign of a soft stop's force is that of rounding
   constexpr double clear_of_rounding = 1e-6;
   const SceneNumbers<double> of_scene = numbers_of<double>(scene);

@@ -12,12 +12,18 @@ struct Violation {
   enum class Kind : std::uint8_t {
     passes_through,  ///< a flight meets a stop before its end; or a soft stop's force rises or falls to zero before it
     pulls,           ///< an impact's velocity points away from its stop; an event within a soft stop lies outside
-    ends_early       ///< a contact with a soft stop, or its interruption, ends before it begins
+    ends_early,      ///< a contact with a soft stop, or its interruption, ends before it begins
+    halts,           ///< the velocity falls to 0 before a flight's end
+    runs_on,         ///< the mass isn't slowed down as it comes to a stick
+    sticks,          ///< the mass isn't pushed away from a reversal as hard as the static level of friction
+    slips,           ///< friction doesn't hold the mass at a stick, or not for so long
+    stays            ///< nothing releases it from a stick
   };
   Kind kind = Kind::passes_through;
   std::size_t impact = 0;  ///< that the flight began with; or that pulls
   OrbitImpact turning{};   ///< passes_through: the turning point beyond the stop, as an impact without speed; or the
-                           ///< extremum of the soft stop's force, as an event that changes nothing
+                           ///< extremum of the soft stop's force, as an event that changes nothing; halts: that of the
+                           ///< velocity, as a stick
 };
 
 /// The first violation of an orbit, by the proof of first contact on each of its flights, and by that of the first sign

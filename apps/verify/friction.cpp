@@ -1,0 +1,142 @@
+#include "motion.hpp"
+
+namespace verify {
+
+// Dry friction: x'' has the term -mu sgn x', and at x' = 0 friction holds the mass against any force up to mu_s.
+
+/// The mass moves to the side of a positive velocity; without one friction holds it, or lets it go where it is pushed.
+void Motion::begin_rough(const Start& start) {
+  const Vector hull = set_.hull();
+  still_for_ = 0;
+  if (resting_ || hits_at_start_) return;
+  if (hull.y.is_positive() || hull.y.is_negative()) {
+    heading_ = hull.y.is_positive() ? 1 : -1;
+  } else if (hull.y.is_zero()) {
+    become_still(start.time);
+    const int way = way_of_push();
+    if (way == 0) sticks_ = true;
+    if (way != 0) heading_ = way, still_for_ = 1;
+  } else {
+    throw Undecided("whether the mass moves at the start");
+  }
+}
+
+/// Describes a mass without speed by the time and its place.
+void Motion::become_still(const Ball& time) {
+  const Vector centre = set_.centre();
+  set_.move({time, centre.x}, {Ball(0), Ball(0), Ball(1), Ball(0)}, {Ball(0), Ball(0)});
+  on_surface_ = still_ = true;
+}
+
+/// The spring and the constant force that act on a still mass, those of a soft stop included.
+Motion::Spring Motion::spring() const {
+  if (mode_ == Mode::free) return {scene_.k, scene_.load};
+  const Stop& stop = scene_.stop(side_);  // it has come up to a still mass
+  return {scene_.k + stop.kappa, scene_.load + stop.kappa * stop.position};
+}
+
+/// The side to which a still mass is let go, +1 or -1; 0: friction holds it.
+int Motion::way_of_push() const {
+  const Vector hull = set_.hull();
+  const Spring acting = spring();
+  const Ball sine = sin_cos(scene_.nu * hull.x + scene_.phase).first;
+  const Ball push = scene_.f * sine + acting.load - acting.k * hull.y;
+  if (push > scene_.friction_static) return 1;
+  if (push < -scene_.friction_static) return -1;
+  if (!(abs(push) < scene_.friction_static)) throw Undecided("whether friction holds the mass");
+  return 0;
+}
+
+/// The velocity falls to 0: the mass turns back at once, or sticks.
+Event Motion::stop_moving(const Flow::Flight& all, const Ball& instant, const Margin& margin, const Ball& end) {
+  const State centre = state_of(set_.centre());
+  const Flow::Flight middle(flow(), centre.time, centre.x, centre.v);
+  const Ball middle_instant = instant_of(middle, margin, instant);
+  const Flow::Instant image = middle.at(middle_instant), there = all.at(instant);
+  const Matrix out{Ball(0), Ball(-1) / there.a, Ball(1), Ball(0)};
+  set_.move({centre.time + middle_instant, image.x}, out * all.derivative(instant) * into_flight(all.at(Ball(0))),
+            {Ball(0), Ball(0)});
+  on_surface_ = still_ = true, vanishing_ = 0;
+  const Vector hull = set_.hull();
+  if (!hull.x.is_finite() || !hull.y.is_finite()) throw Undecided("an event whose bounds are lost");
+  const int way = way_of_push();
+  if (way == 0) return stay(end);
+  if (way == heading_) throw Undecided("whether the motion stops at all");
+  heading_ = way, still_for_ = 1;
+  Event event{Kind::reversal, Side::lower, hull.x, Ball(0), Ball(0)};
+  event.x = hull.y;
+  return event;
+}
+
+/// Friction holds the mass up to the phase at which the force passes its level (eqs. 26 and 65), or to a time.
+Event Motion::stay(const Ball& end) {
+  const Vector hull = set_.hull();
+  const Spring acting = spring();
+  Event event{Kind::stick, Side::lower, hull.x, Ball(0), end};
+  event.x = hull.y;
+  sticks_ = false;
+  struct Release {
+    int way;
+    Ball time, slope;
+  };
+  const auto release = [&](int way, const Ball& time, const Ball& x) -> std::optional<Release> {
+    if (scene_.f.is_zero()) return std::nullopt;
+    const Ball sine = (acting.k * x - acting.load + Ball(way) * scene_.friction_static) / scene_.f;
+    if (abs(sine) > Ball(1)) return std::nullopt;
+    if (!(abs(sine) < Ball(1))) throw Undecided("whether the force ever overcomes friction");
+    const bool rises = (scene_.f * Ball(way)).is_positive();
+    const Ball theta = rises ? asin(sine) : Ball::pi() - asin(sine), cosine = sin_cos(theta).second;
+    const slong turns = ((scene_.nu * time + scene_.phase - theta) / (Ball(2) * Ball::pi())).floor() + 1;
+    const Ball whole = Ball(2.0 * static_cast<double>(turns)) * Ball::pi();
+    return Release{way, (theta + whole - scene_.phase) / scene_.nu, acting.k / (scene_.f * scene_.nu * cosine)};
+  };
+  const auto up = release(1, hull.x, hull.y), down = release(-1, hull.x, hull.y);
+  auto first = up ? up : down;
+  if (up && down) {
+    if (!(up->time < down->time) && !(down->time < up->time)) throw Undecided("to which side friction lets go");
+    first = up->time < down->time ? up : down;
+  }
+  if (!first || first->time > end) {
+    const Vector centre = set_.centre();
+    set_.move({centre.y, Ball(0)}, {Ball(0), Ball(1), Ball(0), Ball(0)}, {Ball(0), Ball(0)});
+    on_surface_ = still_ = false, time_ = end, sticks_ = true;
+    return event;
+  }
+  if (!(first->time < end)) throw Undecided("whether friction lets the mass go before the end");
+  const Vector centre = set_.centre();
+  const auto of_centre = release(first->way, centre.x, centre.y);
+  if (!of_centre) throw Undecided("when friction lets the mass go");
+  set_.move({of_centre->time, centre.y}, {Ball(0), first->slope, Ball(0), Ball(1)}, {Ball(0), Ball(0)});
+  heading_ = first->way, still_for_ = (scene_.friction_static - scene_.friction).is_zero() ? 2 : 1;
+  event.until = set_.hull().x;
+  return event;
+}
+
+/// An impact turns the velocity, and with it the friction.
+void Motion::leave_rough(const Stop& stop) {
+  if (!scene_.is_rough()) return;
+  heading_ = -heading_, is_inelastic_ = stop.R.is_zero();
+}
+
+/// What a slip must stay clear of: the stop ahead, or the end of its contact with a soft one, and standstill.
+std::vector<Margin> Motion::rough_margins() const {
+  std::vector<Margin> list;
+  const Margin speed{heading_, Ball(0), Ball(0), still_for_, true};
+  if (mode_ == Mode::free) {
+    const Side ahead = heading_ > 0 ? Side::upper : Side::lower;
+    if (scene_.stops[index_of(ahead)]) list.push_back({-heading_, scene_.stop(ahead).position, Ball(0), 0});
+    list.push_back(speed);
+    return list;
+  }
+  const Stop& stop = scene_.stop(side_);
+  if (mode_ == Mode::contact) {
+    list.push_back({sign_of(side_), stop.position, stop.q(), vanishing_});
+    list.push_back(speed);
+  } else {  // a mass that outruns the stop meets it before it stands still
+    list.push_back({sign_of(side_), stop.position, Ball(0), 0});
+    list.push_back({-sign_of(side_), stop.position, stop.q(), vanishing_});
+  }
+  return list;
+}
+
+}  // namespace verify

@@ -1,0 +1,20 @@
+#include "branches/halt_end.hpp"
+
+namespace clatter::branches {
+
+void end_in_change(const Equations& equations, double tolerance, const NearEnd& end, const HaltChange& change,
+                   Record& record, std::deque<Waiting>& waiting, std::int64_t generation) {
+  const auto exact = exact_change(equations, end.beyond, change, end.within, tolerance);
+  if (!exact) return record.add(end.last), record.fail(end.last, no_halt_change);
+  const auto with_form = [&](HaltForm form) { return formed(exact->scene, exact->orbit, exact->impact, form); };
+  BranchPoint at = end.last;
+  at.scene = exact->scene, at.orbit = with_form(change.before.value_or(HaltForm::stick));
+  const BranchPoint& last = change.before ? at : end.last;
+  record.add(last);
+  const auto [special, is_new] = record.note(change.kind, at, change.condition);
+  record.end(last, std::string(name_of(change.kind)));
+  if (!is_new || !change.beyond) return no_longer_waits(waiting, special, last.orbit);
+  waiting.push_back({exact->scene, with_form(*change.beyond), {}, special, generation});
+}
+
+}  // namespace clatter::branches

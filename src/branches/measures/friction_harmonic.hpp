@@ -1,0 +1,14 @@
+#pragma once
+
+#include "branches/measures/moving.hpp"
+
+namespace clatter::branches {
+
+/// The integral of a force times e^{-i phase} over the time that is kept of a motion, per unit mass.
+struct Harmonic {
+  Along re = 0, im = 0;
+};
+/// That of dry friction, in closed form: mu against each slip, and whatever holds the mass in a stick.
+[[nodiscard]] Harmonic friction_harmonic(const Moving& moving);
+
+}  // namespace clatter::branches

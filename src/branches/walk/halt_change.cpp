@@ -1,0 +1,156 @@
+#include "branches/walk/halt_change.hpp"
+
+#include <cmath>
+
+#include "branches/equations/flight.hpp"
+#include "branches/equations/newton.hpp"
+#include "branches/walk/slip_violation.hpp"
+
+namespace clatter::branches {
+namespace {
+
+using Kind = Condition::Kind;
+
+Condition level(Kind kind, std::size_t halt, Side side) {
+  return {.kind = kind, .impact = halt, .without = {}, .side = side};
+}
+
+/// Calls `function(flights)` with the flights of a scene.
+template <class Function>
+double of_flights(const FollowedScene& scene, Function&& function) {
+  return with_arcs(scene, [&]<Effects E>() {
+    const Flights<double, E> flights{numbers_of<double>(scene)};
+    return function(flights);
+  });
+}
+/// How long friction holds a mass where it halts against a push to its side, rad.
+double held(const FollowedScene& scene, const OrbitImpact& halt) {
+  return of_flights(scene, [&](const auto& flights) { return flights.hold(halt.place, halt.phase, halt.side); });
+}
+/// Whether it does at the instant at which the mass halts.
+bool holds(const FollowedScene& scene, const OrbitImpact& halt, Side side) {
+  return of_flights(scene, [&](const auto& flights) { return flights.left_to_level(halt.place, halt.phase, side); }) >=
+         0;
+}
+
+/// Whether the force that pushes a halting mass to its side rises.
+bool push_rises(const FollowedScene& scene, const OrbitImpact& halt) {
+  const LeadingForce<double> force = numbers_of<double>(scene).force();
+  return sign_of(halt.side) * force.amplitude * std::cos(halt.phase + force.lead) > 0;
+}
+
+/// The velocity falls to 0 in a slip, which goes on at once: beyond, after a stick.
+HaltChange grazing(const Orbit& orbit, const FollowedScene& scene, const Violation& found, bool jumps) {
+  const std::size_t halt = found.impact + 1;
+  HaltChange change{SpecialKind::grazing_sliding, jumps ? orbit.with(found.turning, halt) : with_halts(scene, orbit),
+                    level(jumps ? Kind::kinetic : Kind::level, halt, found.turning.side), HaltForm::none};
+  if (!jumps) change.beyond = HaltForm::stick;
+  return change;
+}
+
+/// The first event of an orbit and the stick after it as one stick.
+Orbit merged(const Orbit& orbit) {
+  Orbit one = orbit.without(0);
+  one.impacts[0].phase = orbit.impacts[0].phase;
+  return one;
+}
+
+/// A reversal comes to be a stick: a short one, or one that begins as the slip after it has become no more.
+HaltChange sticking(const Orbit& orbit, const FollowedScene& scene, std::size_t i, bool jumps) {
+  const OrbitImpact& halt = orbit.impacts[i];
+  HaltChange change{SpecialKind::crossing_sliding, orbit.with_event(i, EventKind::stick),
+                    level(Kind::level, i, halt.side), HaltForm::reversal, HaltForm::stick};
+  if (push_rises(scene, halt)) return change;
+  change.kind = SpecialKind::switching_sliding, change.before.reset();
+  if (jumps) change.beyond.reset();
+  if (orbit.impact(i + 1).event == EventKind::stick)
+    change.orbit = merged(orbit.from_event(i)), change.condition.impact = 0;
+  return change;
+}
+
+/// A stick has become no more, or the other way is open sooner.
+HaltChange slipping(const Orbit& orbit, const FollowedScene& scene, std::size_t i) {
+  const OrbitImpact& halt = orbit.impacts[i];
+  const Side other = opposite(halt.side);
+  if (!holds(scene, halt, other))
+    return {SpecialKind::switching_sliding, orbit, level(Kind::level, i, other), HaltForm::stick};
+  if (holds(scene, halt, halt.side))
+    return {SpecialKind::release_tangency, orbit, level(Kind::tangency, i, other), HaltForm::stick};
+  HaltChange change{SpecialKind::switching_sliding, orbit, level(Kind::level, i, halt.side), HaltForm::stick};
+  if (!push_rises(scene, halt)) return change;
+  const bool goes_on = orbit.heading_before(i) == halt.side;
+  change.kind = goes_on ? SpecialKind::grazing_sliding : SpecialKind::crossing_sliding;
+  change.beyond = goes_on ? HaltForm::none : HaltForm::reversal;
+  return change;
+}
+
+}  // namespace
+
+Orbit formed(const FollowedScene& scene, const Orbit& orbit, std::size_t halt, HaltForm form) {
+  constexpr double at_once = 1e-6;  // rad
+  const bool goes_on = orbit.heading_before(halt) == orbit.impacts[halt].side;
+  Orbit out = orbit;
+  for (std::size_t i = orbit.size(); i-- > 0;) {
+    const OrbitImpact& other = orbit.impacts[i];
+    const bool alike = halts(other.event) && (orbit.heading_before(i) == other.side) == goes_on &&
+                       std::abs(held(scene, other)) <= at_once;
+    if (i != halt && !alike) continue;
+    if (form == HaltForm::none)
+      out = out.without(i);
+    else
+      out.impacts[i].event = form == HaltForm::stick ? EventKind::stick : EventKind::reversal;
+  }
+  return out;
+}
+
+std::optional<ExactGraze> exact_change(const Equations& equations, const FollowedScene& near, const HaltChange& change,
+                                       double within, double tolerance) {
+  const OrbitEquations there = equations(change.orbit, {change.condition});
+  const Vector guess = there.unknowns_of(near, change.orbit);
+  const auto exact = solution(there, guess, tolerance);
+  if (!exact || std::abs(exact->back() - guess.back()) > within) return std::nullopt;
+  return ExactGraze{there.scene_at(*exact), there.orbit_at(*exact), change.condition.impact};
+}
+
+std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at) {
+  constexpr double about_to_vanish = 1e-3;  // rad
+  const FollowedScene scene = equations.scene_at(at.at);
+  const Orbit orbit = equations.orbit_at(at.at);
+  for (std::size_t i = 0; i < orbit.size() && orbit.size() > 1; ++i) {
+    const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
+    const double begin = from.phase + (from.event == EventKind::stick ? held(scene, from) : 0.0);
+    if (to.event != EventKind::stick || !(to.phase - begin < about_to_vanish)) continue;
+    const Orbit one = merged(orbit.from_event(i));
+    if (from.event == EventKind::impact)
+      return HaltChange{SpecialKind::graze, one, level(Kind::on_stop, 0, from.side), {}, HaltForm::stick};
+    if (from.event == EventKind::stick)
+      return HaltChange{SpecialKind::release_tangency, one, level(Kind::tangency, 0, from.side), {}, HaltForm::stick};
+    return HaltChange{SpecialKind::switching_sliding, one, level(Kind::level, 0, from.side), {}, HaltForm::stick};
+  }
+  return std::nullopt;
+}
+
+std::optional<HaltChange> halt_change(const OrbitEquations& equations, const Narrowed& found) {
+  const FollowedScene scene = equations.scene_at(found.beyond.at);
+  const Orbit orbit = equations.orbit_at(found.beyond.at);
+  const std::size_t i = found.violated.impact;
+  const bool jumps = scene.friction.static_level > scene.friction.kinetic;
+  switch (found.violated.kind) {
+    case Violation::Kind::halts:
+      return grazing(orbit, scene, found.violated, jumps);
+    case Violation::Kind::runs_on:
+      return HaltChange{SpecialKind::grazing_sliding, orbit, level(Kind::kinetic, i, orbit.heading_before(i)),
+                        HaltForm::stick};
+    case Violation::Kind::sticks:
+      return sticking(orbit, scene, i, jumps);
+    case Violation::Kind::slips:
+      return slipping(orbit, scene, i);
+    case Violation::Kind::stays:
+      return HaltChange{SpecialKind::release_tangency, orbit, level(Kind::tangency, i, orbit.impacts[i].side),
+                        HaltForm::stick};
+    default:
+      return vanishing_slip(equations, found.last_good);
+  }
+}
+
+}  // namespace clatter::branches

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "branches/branch.hpp"
+#include "branches/walk/touch.hpp"
+
+namespace clatter::branches {
+
+/// What becomes of a halt: one of a slip that sticks, of one that turns round, or none, as the slip goes on.
+enum class HaltForm : std::uint8_t { stick, reversal, none };
+/// An orbit with that form of a halt, and of all others that change at once with it, as those of its mirror image do.
+[[nodiscard]] Orbit formed(const FollowedScene& scene, const Orbit& orbit, std::size_t halt, HaltForm form);
+
+/// A change of the halts of a motion under dry friction: with the static level at the kinetic one a sliding bifurcation
+/// (di Bernardo et al. 2008).
+struct HaltChange {
+  SpecialKind kind;
+  Orbit orbit;                                 ///< near it, with the halt that the condition is on, as a stick
+  Condition condition;                         ///< that makes it exact
+  std::optional<HaltForm> before{}, beyond{};  ///< of that halt; nothing: the motion isn't one of these
+};
+/// That of a violation; nothing if it is none of halts.
+[[nodiscard]] std::optional<HaltChange> halt_change(const OrbitEquations& equations, const Narrowed& found);
+
+/// That of the shortest slip to a halt, if it is about to vanish: what begins it and that halt become one stick.
+[[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at);
+
+/// The scene and the motion of a change within a distance of the parameter, over the width of its range; nothing if
+/// there is none.
+[[nodiscard]] std::optional<ExactGraze> exact_change(const Equations& equations, const FollowedScene& near,
+                                                     const HaltChange& change, double within, double tolerance);
+
+}  // namespace clatter::branches

@@ -1,0 +1,126 @@
+"""Branches under dry friction: what runs do beside their special points, in SI too, and what can't be followed.
+
+Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
+"""
+
+import json
+import math
+import unittest
+
+import h5py
+import numpy as np
+from branch_runs import BranchRuns
+
+FREE = "[scene]\nh = 0.05\nf = 1.0\nnu = {nu}\nstop_lower = -inf\nstop_upper = inf\nfriction = {mu}\n"
+STOPS = "[scene]\nh = 0.05\nf = 1.0\nnu = 1.3\nR = 0.7\nxs = -0.5\nfriction = 0.2\n"
+ALONG = '[branch]\nalong = "{along}"\nrange = [{low}, {high}]\n'
+
+
+class BranchFriction(BranchRuns):
+    def special_points(self, text):
+        done = self.branch(text, "--json", "-q", "--force")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
+    def stick_fractions(self, scene, key, values):
+        """Of steady motion at each value of a key: the part of its time in which friction holds the mass."""
+        observe = "[observe]\nimpacts = true\n"
+        axis = f"[sweep]\n{key} = {[float(value) for value in values]!r}\n"
+        scene = "".join(line + "\n" for line in scene.splitlines() if not line.startswith(f"{key} ="))
+        self.write("b.toml", scene + observe + axis)
+        done = self.clatter("run", "b.toml", "-o", "b.h5", "-q", "--force")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.directory / "b.h5") as data:
+            return data["stick_fraction"][()]
+
+    def test_runs_stick_on_one_side_of_a_special_point(self):
+        """The branch and the run see the same instant at which friction begins to hold the mass."""
+        for scene, along, low, high in (
+            (FREE.format(nu=0.8, mu=0.3), "friction", 0.2, 0.95),
+            (FREE.format(nu=0.8, mu=0.6), "nu", 0.2, 0.9),
+        ):
+            special = [
+                point
+                for point in self.special_points(scene + ALONG.format(along=along, low=low, high=high))
+                if point["kind"] in ("crossing-sliding", "grazing-sliding")
+            ]
+            self.assertGreaterEqual(len(special), 1, (scene, along))
+            for point in special:
+                at, off = point[along], 2e-4
+                fractions = self.stick_fractions(scene, along, [at - off, at + off])
+                self.assertEqual(sorted(fractions > 0), [False, True], (point, fractions))
+
+    def test_a_reversal_becomes_a_stick_where_the_push_is_at_the_level(self):
+        """Without a damper the mass turns at the amplitude of Den Hartog, where the force is known in closed form."""
+        nu = 0.8
+        scene = FREE.format(nu=nu, mu=0.2).replace("0.05", "0.0")
+        special = self.special_points(scene + ALONG.format(along="friction", low=0.1, high=0.9))
+        at = next(point["friction"] for point in special if point["kind"] == "crossing-sliding")
+        V, U = 1 / (1 - nu**2), math.sin(math.pi / nu) / (nu * (1 + math.cos(math.pi / nu)))
+        turn = math.sqrt(V**2 - (at * U) ** 2)
+        # sin of the phase is turn/V there, as what friction and the free motion add cancels
+        push = turn - turn / V  # of spring and force, back
+        self.assertAlmostEqual(push, at, 10)
+
+    def test_the_place_map_of_a_stick_is_of_one_number(self):
+        self.special_points(STOPS + ALONG.format(along="nu", low=1.29, high=1.31))
+        with h5py.File(self.directory / "a.branch.h5") as data:
+            k = int(np.argmin(np.abs(data["nu"][()] - 1.3)))
+            self.assertEqual(data["nu"][k], 1.3)
+            np.testing.assert_allclose(data["multiplier_re"][k], [0.267959696315445, 0], rtol=0, atol=1e-13)
+            self.assertEqual(data["word"][k], b"LU")
+
+    def test_branches_in_si_are_those_of_the_scene(self):
+        """Mass 1 kg, stiffness 1 N/m: the units are those of the scene."""
+        machine = (
+            "[machine]\nmass = 1.0\nstiffness = 1.0\ndamping = 0.1\nforce = 1.0\n"
+            f"frequency = {1.3 / (2 * math.pi)!r}\nR = 0.7\ngap = 0.5\nfriction = 0.2\n"
+        )
+        one = self.special_points(STOPS + ALONG.format(along="friction", low=0.05, high=0.4))
+        other = self.special_points(machine + ALONG.format(along="friction", low=0.05, high=0.4))
+        self.assertGreaterEqual(len(one), 1)
+        self.assertEqual([point["kind"] for point in one], [point["kind"] for point in other])
+        for a, b in zip(one, other):
+            self.assertAlmostEqual(a["friction"], b["friction"], 11)
+
+    def test_a_scene_off_the_centre_has_the_same_special_points(self):
+        """Places count from the middle of a symmetric scene, so halves of its motion are halves anywhere."""
+        moved = STOPS.replace("xs = -0.5", "stop_lower = 0.5\nstop_upper = 1.5\nload = 1.0\nx0 = 1.0")
+        along = ALONG.format(along="nu", low=1.0, high=1.6)
+        one, other = self.special_points(STOPS + along), self.special_points(moved + along)
+        self.assertIn("symmetry breaking", [point["kind"] for point in one])
+        self.assertEqual([point["kind"] for point in one], [point["kind"] for point in other])
+        for a, b in zip(one, other):
+            self.assertAlmostEqual(a["nu"], b["nu"], 9)
+
+    def test_motion_jumps_beyond_the_end_of_a_branch(self):
+        """With a static level above friction a mass that just doesn't slip back at once sticks for long."""
+        scene = FREE.format(nu=0.8, mu=0.1) + "friction_static = 0.2\n"
+        special = self.special_points(scene + ALONG.format(along="nu", low=0.2, high=0.9))
+        ends = [point for point in special if point["kind"] == "switching-sliding"]
+        self.assertEqual(len(ends), 1, special)
+        self.assertEqual(ends[0]["branches"], [0])
+        at = ends[0]["nu"]
+        # a little before it a run from rest already ends in the motion that sticks, which is another one
+        before, beyond = self.stick_fractions(scene, "nu", [at + 1e-3, at - 1e-6])
+        self.assertEqual(before, 0)
+        self.assertGreater(beyond, 0.01)
+
+    def test_it_says_what_cannot_be_followed(self):
+        nu = ALONG.format(along="nu", low=1.2, high=1.4)
+        soft = "stop_stiffness = 40\n"
+        for text, words in (
+            (STOPS.replace("R = 0.7\n", soft) + nu, "between rigid stops alone"),
+            (STOPS + nu + 'across = "friction"\ncurve = "fold"\n', "no curve of special points"),
+            (STOPS.replace("0.2", "1.6") + nu, "for good"),
+            (STOPS.replace("0.2", "0") + ALONG.format(along="friction", low=0, high=0.4), "no dry friction"),
+            (STOPS + "friction_static = 0.25\n" + ALONG.format(along="friction", low=0.1, high=0.4), "friction_static"),
+        ):
+            done = self.branch(text, "-q")
+            self.assertNotEqual(done.returncode, 0, text)
+            self.assertIn(words, done.stderr)
+            self.assertFalse((self.directory / "a.branch.h5").exists(), text)
+
+
+if __name__ == "__main__":
+    unittest.main()
