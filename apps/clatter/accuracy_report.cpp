@@ -220,7 +220,8 @@ std::string misses(Rows rows, const accuracy::PointAccuracy& of_point) {
 }  // namespace
 
 std::string comparison_text(const accuracy::PointAccuracy& of_point, const point::Problem& problem) {
-  const std::string events = counted(of_point.impacts, "impact") + " and " + counted(of_point.rests, "rest");
+  const std::string events = counted(of_point.impacts, "impact") + " and " + counted(of_point.rests, "rest") +
+                             (has_friction(problem.friction) ? ", sticks included" : "");
   const std::string asked = formatted("%.6g", of_point.asked) + period_text(problem, of_point.asked != 1);
   const steady::Status status = of_point.rows.front().status;
   if (failed(status)) return "not compared, since the run fails: " + status_name(status) + '.';

@@ -66,7 +66,7 @@ TEST(StickingScene, is_not_run_in_lanes) {
                                                 {TestedMethod::steady, 1e-12, lanes::InstructionSet::sse2}},
                                                once);
   EXPECT_TRUE(has_errors(found.rows[0]));
-  for (const std::size_t in_lanes : {1, 2}) {
+  for (const std::size_t in_lanes : {1u, 2u}) {
     EXPECT_FALSE(has_errors(found.rows[in_lanes]));
     EXPECT_FALSE(failed(found.rows[in_lanes].status)) << "nothing has failed";
   }

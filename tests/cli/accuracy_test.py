@@ -206,6 +206,26 @@ class Accuracy(AccuracyRuns):
                 self.assertEqual(np.isnan(file[key][:, list(LANES)]).tolist(), [[False, False], [True, True]], key)
             self.assertLess(file["status"][()].max(), 16)
 
+    def test_with_dry_friction_compares_sticks_and_leaves_out_the_lanes(self):
+        scene = "[scene]\nxs = 0.5\nR = 0.7\nh = 0.05\nf = 1.0\nnu = 1.3\nfriction = 0.2\n"
+        config = self.write("rough.toml", scene + "[time]\nwindow = 12\n")
+        rows = objects(self.accuracy(config, "--json", "-q").stdout)
+        self.assertEqual([row["method"] for row in rows], METHODS + REPEATS)
+        for place, row in enumerate(rows):
+            has_errors = place not in LANES
+            self.assertEqual(row["error_harmonics"] is not None, has_errors, row)
+            self.assertEqual(row["ns_per_period"] is not None, has_errors, row)
+            self.assertLess(row["status"], 16, row)
+        exact, tight = rows[0], next(row for row in rows if row["method"] == "dopri5" and row["setting"] == 1e-10)
+        for key in ("error_contact_time", "error_contact_speed", "error_rest", "error_extrema", "error_harmonics"):
+            self.assertLess(exact[key], 1e-13, key)  # roundings of contracting motion
+            self.assertLess(tight[key], 1e-8, key)  # some hundred steps
+        for row in (exact, tight):
+            self.assertEqual((row["missed"], row["doubled"], row["rests_missed"]), (0, 0, 0))
+        self.assertGreater(exact["reference_rests"], 3)
+        answer = " ".join(self.accuracy(config, "-q", "-o", "b.h5").stdout.split())
+        self.assertRegex(answer, r"from the start: \d+ impacts and \d+ rests, sticks included\.")
+
 
 class Refusals(AccuracyRuns):
     def test_exit_2_with_the_way_out(self):

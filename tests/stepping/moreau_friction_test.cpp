@@ -98,7 +98,7 @@ TEST(MoreauFriction, settled_motion_has_the_known_impacts_and_the_known_stick_to
     ASSERT_GT(sticks.size(), 10u);
     const Event& stick = sticks[sticks.size() - 2];
     double error = std::max(std::abs(stick.length - 0.315340026143191), std::abs(stick.place + 0.327636229491487));
-    for (const std::size_t i : {78, 79}) {
+    for (const std::size_t i : {78u, 79u}) {
       const double known = impacts[i].side == Side::upper ? 0.940532086164330 : 0.718708034646616;
       error = std::max(error, std::abs(impacts[i].speed() - known));
     }
