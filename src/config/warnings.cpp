@@ -14,7 +14,9 @@ namespace {
 /// Whether a key chooses an observable, as those do that are off by default; the others say how to compute one, or need
 /// one beside them.
 bool is_observable(const Key& key) {
-  const bool needs_another = key.beside.find("[observe]") != std::string_view::npos;
+  const std::string_view header = "[observe]\n";
+  const std::size_t at = key.beside.find(header);
+  const bool needs_another = at != std::string_view::npos && at + header.size() < key.beside.size();
   return key.section == "observe" && !needs_another &&
          (key.fallback == "false" || (key.kind == Kind::integer && key.fallback == "0"));
 }
