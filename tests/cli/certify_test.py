@@ -10,6 +10,7 @@ import unittest
 import h5py
 import numpy as np
 
+from accuracy_runs import STEADY
 from command_line import SMALL, SOURCE, CommandLine
 
 IMPACTS = """[scene]
@@ -265,7 +266,8 @@ range = [0.4, 1.4]
         config = self.write("a.toml", SMALL)
         self.clatter("run", config, "--shard", "0/2", "-q")
         self.assert_refused(74, "is shard 0/2 of a sweep; join all with `clatter merge`", "certify", "a.0-of-2.h5")
-        self.clatter("accuracy", SOURCE / "configs/accuracy_smooth.toml", "-q", "-o", "c.h5")
+        soon_over = self.write("c.toml", STEADY + "max_impacts = 1\n")
+        self.assertEqual(self.clatter("accuracy", soon_over, "-q", "-o", "c.h5").returncode, 1)
         self.assert_refused(74, "holds what accuracy costs, not motions", "certify", "c.h5")
 
 

@@ -12,7 +12,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from command_line import CLATTER, SOURCE
+from command_line import CLATTER
 from plot_checks import Svg, overlapping_texts
 
 from clatter.plots import pictures, style
@@ -92,9 +92,8 @@ class Maps(unittest.TestCase):
     def test_a_map_is_one_image_of_a_few_kilobytes(self):
         for name in SCENES:
             (path, png) = (self.folder / f"{name}.{kind}" for kind in ("svg", "png"))
-            words = [SOURCE / "scripts" / "plot.py", self.folder / f"{name}.h5"]
-            result = subprocess.run(["/usr/bin/python3", *words], capture_output=True, text=True)
-            self.assertEqual((result.returncode, result.stderr), (0, ""), name)
+            for file in (path, png):
+                file.write_bytes(pictures.in_format(self.figure(name), file.suffix[1:]))
             panels = [panel for panel in Svg(path).panels if "<colorbar>" not in panel.texts()]
             for panel in panels:
                 self.assertLess(len(panel.images()), 2, name)

@@ -2,7 +2,8 @@
 
 import unittest
 
-from report_runs import ReportRuns, shipped
+from report_runs import ReportRuns
+from shipped import shipped
 
 
 class Configs(ReportRuns):

@@ -18,7 +18,8 @@ from selenium.webdriver.common.actions.action_builder import ActionBuilder
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
-from report_runs import ReportRuns, branch_point, is_branch, results_at, shipped
+from report_runs import ReportRuns, branch_point, is_branch, results_at
+from shipped import shipped
 
 CLATTER = os.environ["CLATTER"]
 SOURCE = Path(os.environ["CLATTER_SOURCE"])

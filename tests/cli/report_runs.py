@@ -16,13 +16,6 @@ import numpy as np
 from command_line import CLATTER, LONGEST, SOURCE, CommandLine, without_progress
 from script_runs import run_script
 
-COARSER = {  # settings of the shipped configurations that take long
-    "basins": ("sweep.x0=linspace(-3, 3, 13)", "sweep.v0=linspace(-6, 6, 11)"),
-    "map_nu_xs": ("sweep.nu=linspace(0.5, 1.5, 31)", "sweep.xs=linspace(2, 12, 21)"),
-    "optimal_zones": ("sweep.nu=linspace(1, 13, 13)", "sweep.x0=sobol(-0.5, 0.5, 32)", "sweep.v0=sobol(-5, 5, 32)"),
-    "regimes": ("sweep.nu=linspace(0.3, 1.3, 23)", "sweep.xs=linspace(0.05, 2.05, 9)"),
-    "zones": ("sweep.nu=linspace(0.5, 1.5, 21)", "sweep.x0=sobol(-3, 3, 32)", "sweep.v0=sobol(-6, 6, 32)"),
-}
 OF_WHOLE_SWEEPS = ("attractor",)  # results that number what all points have in common
 OF_BRANCHES = ("x_min", "x_max", "v_min", "v_max", "impact_speed")  # that a run of one period has, too
 
@@ -97,14 +90,6 @@ class ReportRuns(CommandLine):
             scale = abs(there["x_max" if name.startswith("x") else "v_max"])
             error = (1e-5 if is_end else 1e-9) * scale
             np.testing.assert_allclose(here[name], value, rtol=0, atol=error, err_msg=name)
-
-
-def shipped():
-    """Path, command of clatter, and settings of every configuration in configs/."""
-    for config in sorted((SOURCE / "configs").glob("*.*")):
-        if config.suffix in (".toml", ".ini"):
-            command = "branch" if "[branch]" in config.read_text(encoding="utf-8") else "run"
-            yield config, command, COARSER.get(config.stem, ())
 
 
 def data_of(page):

@@ -15,6 +15,7 @@ from certified_runs import VERIFY, certified, random_certificates, verified
 from command_line import LONGEST, SOURCE, CommandLine
 from forgeries import FORGERIES, forged
 from random_scenes import close_scenes, compliant_scenes, pressing_scenes, random_scenes, rubbed_scenes
+from shipped import COARSER
 
 SCENES = int(os.environ.get("CLATTER_VERIFIED", "150"))
 IS_LONG = SCENES > 1000
@@ -153,12 +154,13 @@ class Verify(CommandLine):
             check=False,
         )
 
-    def certificates(self, name, config, *words):
-        """The file of the certificates of a configuration, a text or a path."""
+    def certificates(self, name, config, *words, settings=()):
+        """The file of the certificates of a configuration, a text or a path, with other settings."""
         if isinstance(config, str):
             config = self.write(f"{name}.toml", config)
         output, file = self.directory / f"{name}.h5", self.directory / f"{name}.jsonl"
-        result = self.clatter("run", config, "-q", "-o", output)
+        sets = (word for setting in settings for word in ("--set", setting))
+        result = self.clatter("run", config, "-q", "-o", output, *sets)
         self.assertIn(result.returncode, (0, 1), result.stderr)
         certified(output, file, *words)
         return file
@@ -179,7 +181,8 @@ class Verify(CommandLine):
         for config in others:
             if config.stem.startswith("accuracy"):
                 continue
-            file = self.certificates(config.stem, config, *sample)
+            settings = () if IS_LONG else COARSER.get(config.stem, ())
+            file = self.certificates(config.stem, config, *sample, settings=settings)
             if file.stat().st_size > 0:  # else no point of it has a claim: it has no force
                 files.append(file)
         self.assertGreater(len(files), 20)

@@ -1,6 +1,7 @@
 """Names of variables and constants in pictures: words, symbols, values with their units; and texts of files and command
 lines as pictures show them."""
 
+import functools
 import re
 from itertools import groupby
 
@@ -20,9 +21,9 @@ def names_of(output, name):
     """Words and symbol of a variable of an output, or of a constant of its scene; empty if the file has none."""
     variable = variable_of(output, name)
     if variable and (variable.label or variable.symbol):
-        return variable.label, variable.symbol
+        return variable.label, typeset_symbol(variable.symbol)
     constant = output.constants.get(name, {})
-    return constant.get("words", ""), constant.get("symbol", "")
+    return constant.get("words", ""), typeset_symbol(constant.get("symbol", ""))
 
 
 def symbol(output, name):
@@ -130,8 +131,9 @@ def number(value):
     return re.sub(r"e([-+])0", r"e\1", f"{value + 0.0:.6g}").replace("-", "\N{MINUS SIGN}")
 
 
+@functools.lru_cache(maxsize=None)
 def typeset_symbol(text):
-    """A symbol of a file if it is mathematics that can be typeset, else as text."""
+    """A symbol of a file if it is mathematics that can be typeset, else as text. It takes milliseconds to find out."""
     try:
         mathtext.MathTextParser("path").parse(text)
     except ValueError:

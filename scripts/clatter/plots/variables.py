@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .names import plain, typeset_symbol
+from .names import plain
 from ..hdf5_files import dimensions_of, text, values_of
 
 try:
@@ -25,7 +25,7 @@ class Variable:
     units: str
     frame: str = ""  # "relative" or "absolute" in scenes that are shaken
     label: str = ""  # words of an axis
-    symbol: str = ""
+    symbol: str = ""  # as the file has it; `names` typesets it
     observable: str = ""  # the key of [observe] that asks for it
 
     def at(self, axis, index):
@@ -59,7 +59,7 @@ def read_variable(item):
         text(item.attrs.get("units", "1")),
         text(item.attrs.get("frame", "")),
         plain(text(item.attrs.get("label", ""))),
-        typeset_symbol(text(item.attrs.get("symbol", ""))),
+        text(item.attrs.get("symbol", "")),
         text(item.attrs.get("observable", "")),
     )
 
@@ -69,7 +69,7 @@ def constants_of(names):
     constants = tomllib.loads(names)
     for key, told in constants.items():
         units, words, symbol = (told[name] for name in ("units", "words", "symbol"))
-        constants[key] = {"units": plain(units), "words": plain(words), "symbol": typeset_symbol(symbol)}
+        constants[key] = {"units": plain(units), "words": plain(words), "symbol": symbol}
     return constants
 
 
