@@ -13,7 +13,7 @@ import zlib
 import h5py
 import numpy as np
 
-from command_line import CLATTER, LONGEST, SOURCE, CommandLine, without_progress
+from command_line import CLATTER, LONGEST, CommandLine, without_progress
 from script_runs import run_script
 
 OF_WHOLE_SWEEPS = ("attractor",)  # results that number what all points have in common
