@@ -112,12 +112,6 @@ Event Motion::stay(const Ball& end) {
   return event;
 }
 
-/// An impact turns the velocity, and with it the friction.
-void Motion::leave_rough(const Stop& stop) {
-  if (!scene_.is_rough()) return;
-  heading_ = -heading_, is_inelastic_ = stop.R.is_zero();
-}
-
 /// What a slip must stay clear of: the stop ahead, or the end of its contact with a soft one, and standstill.
 std::vector<Margin> Motion::rough_margins() const {
   std::vector<Margin> list;

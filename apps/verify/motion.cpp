@@ -153,7 +153,6 @@ Event Motion::next(const Ball& end) {
   if (resting_) throw Undecided("motion goes on while a stop holds the mass");
   if (hits_at_start_) return hit_at_start();
   if (sticks_) return stay(end);
-  if (is_inelastic_) throw Undecided("whether friction holds the mass on the stop");
   const State state = state_of(set_.hull());
   const Flow::Flight all(flow(), state.time, state.x, state.v);
   const std::vector<Margin> list = margins();
@@ -234,9 +233,8 @@ Event Motion::hit_at_start() {
     begin(Mode::contact, side_, stop.h_s.is_zero() ? 1 : 0);
     return {Kind::touch, side_, time, v, Ball(0)};
   }
-  leave_rough(stop);
   set_ = MovingSet({stop.position, -stop.R * v}, {Ball(0), Ball(0)});
-  begin(Mode::free, side_, stop.R.is_zero() ? 2 : 1);
+  rebound(side_, time);
   return {Kind::impact, side_, time, v, Ball(0)};
 }
 
@@ -289,8 +287,7 @@ Event Motion::pass(std::size_t index, Side side) {
       return event;
     }
     event.kind = Kind::impact, factor_ = family_ != nullptr ? -family_->scene.stop(side).R : Dual(-stop.R);
-    begin(Mode::free, event.side, stop.R.is_zero() ? 2 : 1);
-    leave_rough(stop);
+    rebound(event.side, event.time);
     return event;
   }
   if (mode_ == Mode::contact) {

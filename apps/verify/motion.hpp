@@ -109,7 +109,7 @@ class Motion {
   [[nodiscard]] std::vector<Margin> rough_margins() const;
   Event stop_moving(const Flow::Flight& all, const Ball& instant, const Margin& margin, const Ball& end);
   Event stay(const Ball& end);
-  void leave_rough(const Stop& stop);
+  void rebound(Side side, const Ball& time);
   [[nodiscard]] State state_of(const Vector& coordinates) const;
   [[nodiscard]] Matrix into_flight(const Flow::Instant& start) const;
   Event hit_at_start();
@@ -137,7 +137,6 @@ class Motion {
   int heading_ = 0;                    ///< with friction: the sign of the velocity
   int still_for_ = 0;                  ///< `Margin::vanishing` of the velocity
   bool sticks_ = false;                ///< friction holds the mass
-  bool is_inelastic_ = false;          ///< the last impact took all speed, and friction may hold the mass
   Dual time_, place_, q_, factor_{1};  ///< surface: x + q v = place; then the velocity is multiplied by the factor
   Mode mode_ = Mode::free;
   Side side_ = Side::lower;  ///< of the stop of the mode, or that was left

@@ -36,8 +36,21 @@ void Motion::release(Side side, const Ball& after, bool nearest) {
   on_surface_ = still_ = false, was_exact_ = true, resting_ = false;
   begin(Mode::free, side, 3);
   if (!scene_.is_rough()) return;
-  heading_ = -sign_of(side), is_inelastic_ = false;
+  heading_ = -sign_of(side);
   still_for_ = (scene_.friction_static - scene_.friction).is_zero() ? 2 : 1;
+}
+
+/// The mass after an impact: on its way back, or without speed, when the force holds it or pulls it away at once.
+void Motion::rebound(Side side, const Ball& time) {
+  heading_ = scene_.is_rough() ? -sign_of(side) : 0, still_for_ = 0;
+  if (!scene_.stop(side).R.is_zero()) return begin(Mode::free, side, 1);
+  const Ball press = scene_.pressing(side, sin_cos(scene_.nu * time + scene_.phase).first) + scene_.friction_static;
+  if (press.is_negative()) {
+    if (scene_.is_rough()) still_for_ = 1;
+    return begin(Mode::free, side, 2);
+  }
+  if (!press.is_positive()) throw Undecided("whether a stop holds the mass after an impact");
+  resting_ = true, side_ = side, rest_begin_ = time;
 }
 
 /// The infinitely many rebounds from one at speed w on: with a- <= y'' <= a+ towards the stop a flight lasts
@@ -46,7 +59,6 @@ void Motion::release(Side side, const Ball& after, bool nearest) {
 /// Undecided if that isn't proved.
 Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) const {
   const Stop& stop = scene_.stop(side);
-  if (w.is_zero()) return {Ball(0), Ball(0)};
   const auto press = [&](const Ball& at) {
     return scene_.pressing(side, sin_cos(scene_.nu * at + scene_.phase).first);
   };
@@ -76,8 +88,8 @@ Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) co
 
 Event Motion::finish_chatter(double accuracy, const Ball& latest, double height) {
   const Side side = side_;
-  if (mode_ != Mode::free || vanishing_ == 0) throw Undecided("a chatter begins with an impact");
-  const Ball begin_time = state_of(set_.hull()).time;
+  const Ball begin_time = state_of(set_.hull()).time, far = Ball(100) * scene_.period();
+  if (mode_ != Mode::free || vanishing_ == 0) return next((begin_time + far).upper());  // it begins with an impact
   bool rebounds_now = true;  // else it turns back at its peak, by friction
   for (int impacts = 0; impacts < 4000; ++impacts) {
     const State state = state_of(set_.hull());
@@ -92,14 +104,14 @@ Event Motion::finish_chatter(double accuracy, const Ball& latest, double height)
       if (until.radius() <= accuracy && left->height <= Ball(height)) {
         const Ball place = scene_.stop(side).position;
         other_places_.push_back(Ball::hull(place, place - Ball(sign_of(side)) * left->height));
-        resting_ = true, is_inelastic_ = false, rest_begin_ = until;
+        resting_ = true, rest_begin_ = until;
         return {Kind::chatter, side, begin_time, Ball(0), until};
       }
     }
-    const Event event = next((state.time + Ball(100) * scene_.period()).upper());
+    const Event event = next((state.time + far).upper());
     rebounds_now = event.kind != Kind::reversal;
     if (!rebounds_now && event.time < latest) continue;
-    if (event.kind != Kind::impact || event.side != side || event.time > latest) return event;
+    if (event.kind != Kind::impact || event.side != side || resting_ || event.time > latest) return event;
   }
   throw Undecided("the end of a chatter");
 }

@@ -248,8 +248,8 @@ class Follower {
                     const std::optional<std::size_t>& from) {
     const std::optional<Narrowed> between = narrowed(equations, walk, step);
     if (!between) return record_.fail(record_.point(equations, walk.here()), no_step);
-    if (const auto change = halt_change(equations, *between))
-      return end_in_halt(equations, walk, *between, *change, from);
+    if (const auto changes = halt_changes(equations, *between); !changes.empty())
+      return end_in_halt(equations, walk, *between, changes, from);
     const Touch touch = touch_of(equations, *between);
     if (special_between(equations, walk, touch.last_good.arclength - walk.here().arclength, from))
       return record_.end(record_.point(equations, touch.last_good), "born");
@@ -283,19 +283,19 @@ class Follower {
   void end_without_step(const OrbitEquations& equations, const BranchPoint& last, const CurvePoint& here) {
     const auto change = vanishing_slip(equations, here);
     if (!change) return record_.fail(last, no_step);
-    end_in_change({last, equations.scene_at(here.at), settings_.largest_step}, *change);
+    end_in_change({last, equations.scene_at(here.at), settings_.largest_step}, {*change});
   }
   /// The branch ends within a step, as friction begins to hold the mass somewhere, or no longer does.
-  void end_in_halt(const OrbitEquations& equations, const Walk& walk, const Narrowed& between, const HaltChange& change,
-                   const std::optional<std::size_t>& from) {
+  void end_in_halt(const OrbitEquations& equations, const Walk& walk, const Narrowed& between,
+                   const std::vector<HaltChange>& changes, const std::optional<std::size_t>& from) {
     const BranchPoint last = record_.point(equations, between.last_good);
     if (special_between(equations, walk, between.last_good.arclength - walk.here().arclength, from))
       return record_.end(last, "born");
     const double step = between.beyond.arclength - walk.here().arclength;
-    end_in_change({last, equations.scene_at(between.beyond.at), 10 * step}, change);
+    end_in_change({last, equations.scene_at(between.beyond.at), 10 * step}, changes);
   }
-  void end_in_change(const NearEnd& end, const HaltChange& change) {
-    branches::end_in_change(any_equations(), settings_.tolerance, end, change, record_, waiting_, generation_);
+  void end_in_change(const NearEnd& end, const std::vector<HaltChange>& changes) {
+    branches::end_in_change(any_equations(), settings_.tolerance, end, changes, record_, waiting_, generation_);
   }
 
   /// The branch ends on a motion that repeats sooner, or is symmetric, as that grazes soft stops, whose dampers change

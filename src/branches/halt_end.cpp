@@ -1,11 +1,18 @@
 #include "branches/halt_end.hpp"
 
+#include <algorithm>
+
 namespace clatter::branches {
 
-void end_in_change(const Equations& equations, double tolerance, const NearEnd& end, const HaltChange& change,
-                   Record& record, std::deque<Waiting>& waiting, std::int64_t generation) {
-  const auto exact = exact_change(equations, end.beyond, change, end.within, tolerance);
-  if (!exact) return record.add(end.last), record.fail(end.last, no_halt_change);
+void end_in_change(const Equations& equations, double tolerance, const NearEnd& end,
+                   const std::vector<HaltChange>& changes, Record& record, std::deque<Waiting>& waiting,
+                   std::int64_t generation) {
+  std::optional<ExactGraze> exact;
+  const auto found = std::ranges::find_if(changes, [&](const HaltChange& change) {
+    return (exact = exact_change(equations, end.beyond, change, end.within, tolerance)).has_value();
+  });
+  if (found == changes.end()) return record.add(end.last), record.fail(end.last, no_halt_change);
+  const HaltChange& change = *found;
   const auto with_form = [&](HaltForm form) { return formed(exact->scene, exact->orbit, exact->impact, form); };
   BranchPoint at = end.last;
   at.scene = exact->scene, at.orbit = with_form(change.before.value_or(HaltForm::stick));

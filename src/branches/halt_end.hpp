@@ -12,8 +12,9 @@ struct NearEnd {
   double within;         ///< that the end lies of it, over the width of the parameter's range
 };
 
-/// Ends a branch in a change of its halts; the motion beyond waits.
-void end_in_change(const Equations& equations, double tolerance, const NearEnd& end, const HaltChange& change,
-                   Record& record, std::deque<Waiting>& waiting, std::int64_t generation);
+/// Ends a branch in the first change of its halts that is near; the motion beyond waits.
+void end_in_change(const Equations& equations, double tolerance, const NearEnd& end,
+                   const std::vector<HaltChange>& changes, Record& record, std::deque<Waiting>& waiting,
+                   std::int64_t generation);
 
 }  // namespace clatter::branches

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -105,6 +106,25 @@ TEST(Sticking, keeps_the_place_alone) {
   EXPECT_NEAR(point.orbit.impacts[1].before, -0.718708034646616, 1e-14);
   EXPECT_EQ(point.orbit.impacts[2].event, EventKind::stick);
   EXPECT_NEAR(point.orbit.impacts[2].place, -0.327636229491487, 1e-14);
+}
+
+/// A slip of no length solves its equations at any speed, and in a graze rounding decides if the mass halts before it.
+TEST(Sticking, goes_on_past_the_graze_at_which_a_slip_vanishes) {
+  sweep::GivenProblem problem = rubbing(0.0, 1.0685085638604543, 0.20797057710696987);
+  problem.oscillator.stiffness = 1.670823332204417, problem.oscillator.load = 0.29064189875931284;
+  problem.stops = {-0.28661948695205147, 0.28661948695205147, 0.7697597716164745, 0.7697597716164745};
+  problem.start = {-0.14291807588504682, 0.09749924090526019, 0.0};
+  for (const std::array range : {std::array{0.98, 1.08}, {0.97, 1.1}, {0.74, 1.5}}) {
+    const Branches found = follow_branches(problem, {.along = Parameter("nu"), .range = range});
+    EXPECT_EQ(std::ranges::count(found.ends, true, &BranchEnd::failed), 0) << range[0];
+    const auto graze = std::ranges::find(found.special, SpecialKind::graze, &SpecialPoint::kind);
+    ASSERT_NE(graze, found.special.end());
+    EXPECT_NEAR(graze->at.scene.oscillator.frequency, 1.00375011065766, 1e-12);
+    const double lowest = std::ranges::min(found.points, {}, [](const BranchPoint& point) {
+                            return point.scene.oscillator.frequency;
+                          }).scene.oscillator.frequency;
+    EXPECT_LT(lowest, 0.99);
+  }
 }
 
 /// Equations of a motion of a branch, in which the frequency varies.

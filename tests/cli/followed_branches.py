@@ -46,6 +46,7 @@ class BranchCampaign:
     def turns(self, i, number, nu, special):
         """Where the parameter turns round there is a fold, or the branch is born."""
         steps = np.diff(nu)
+        steps[abs(steps) <= 1e-13 * nu[1:]] = 0  # rounding, as a slip vanishes with the root of the way to there
         for k in np.flatnonzero(steps[:-1] * steps[1:] < 0):
             near = 2 * (abs(steps[k]) + abs(steps[k + 1]))
             kinds = ("fold", "flip", "symmetry breaking", "graze", "chatter limit")

@@ -89,10 +89,24 @@ def rest_that_is_none(certificate):
     for index, event in enumerate(certificate["events"]):
         if event["event"] == "impact":
             until = [event["time"][0] + 1e-3, 1e-9]
+            if certificate["scene"][event["stop"]]["R"] == 0:  # it would rest at once
+                continue
             chatter = {"event": "chatter", "stop": event["stop"], "time": event["time"], "until": until}
             rest = {**chatter, "event": "rest", "time": until, "until": [until[0] + 0.5, 1e-9]}
             certificate["events"][index + 1 :] = [chatter, rest]
             return certificate
+
+
+def rest_where_the_force_pulls(certificate):
+    """After an impact that takes all speed."""
+    events = certificate["events"]
+    for index, event in enumerate(events):
+        if event["event"] == "impact" and certificate["scene"][event["stop"]]["R"] == 0:
+            if index + 1 == len(events) or events[index + 1]["event"] != "rest":
+                until = [event["time"][0] + 0.5, 1e-9]
+                rest = {"event": "rest", "stop": event["stop"], "time": event["time"], "until": until}
+                events.insert(index + 1, rest)
+                return certificate
 
 
 def rest_left_out(certificate):
@@ -186,9 +200,8 @@ def wrong_restitution(certificate):
     if certificate["claim"] == "special":  # it may be that of a stop that is only grazed
         return None
     for event in certificate["events"]:
-        stop = certificate["scene"][event["stop"]]
-        if "R" in stop:
-            stop["R"] = stop["R"] * 0.999 + 1e-4
+        if event["event"] == "impact":
+            certificate["scene"][event["stop"]]["R"] = certificate["scene"][event["stop"]]["R"] * 0.999 + 1e-4
             return certificate
 
 
@@ -236,6 +249,7 @@ FORGERIES = [
     twice_the_period,
     wrong_multiplier,
     rest_that_is_none,
+    rest_where_the_force_pulls,
     rest_left_out,
     rest_too_long,
     wrong_place,

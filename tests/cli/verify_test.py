@@ -77,6 +77,17 @@ mode = "transient"
 duration = 25
 """
 
+INELASTIC = """[scene]
+f = 1.0
+h = 0.1
+R = 0
+xs = 0.3
+[sweep]
+nu = "linspace(0.3, 3.3, 7)"
+load = [0, 0.5]
+friction = [0, 0.1]
+"""
+
 RIGHT = {
     "format": "clatter-certificate-1",
     "point": 3,
@@ -223,7 +234,13 @@ class Verify(CommandLine):
 
     def test_every_forgery_is_refuted(self):
         lines, kinds = [], []
-        for name, config in (("rests", RESTS), ("soft", SOFT), ("transient", TRANSIENT), ("rough", ROUGH)):
+        for name, config in (
+            ("rests", RESTS),
+            ("soft", SOFT),
+            ("transient", TRANSIENT),
+            ("rough", ROUGH),
+            ("inelastic", INELASTIC),
+        ):
             file = self.certificates(name, config)
             self.assert_proved(verified(file), 1)
             for line in file.read_text(encoding="utf-8").splitlines():

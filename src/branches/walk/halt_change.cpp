@@ -130,7 +130,10 @@ std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const 
   return std::nullopt;
 }
 
-std::optional<HaltChange> halt_change(const OrbitEquations& equations, const Narrowed& found) {
+namespace {
+
+/// That of a violation, if it is one of halts that are there.
+std::optional<HaltChange> of_violation(const OrbitEquations& equations, const Narrowed& found) {
   const FollowedScene scene = equations.scene_at(found.beyond.at);
   const Orbit orbit = equations.orbit_at(found.beyond.at);
   const std::size_t i = found.violated.impact;
@@ -149,8 +152,17 @@ std::optional<HaltChange> halt_change(const OrbitEquations& equations, const Nar
       return HaltChange{SpecialKind::release_tangency, orbit, level(Kind::tangency, i, orbit.impacts[i].side),
                         HaltForm::stick};
     default:
-      return vanishing_slip(equations, found.last_good);
+      return std::nullopt;
   }
+}
+
+}  // namespace
+
+std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found) {
+  std::vector<HaltChange> changes;
+  for (const auto& change : {of_violation(equations, found), vanishing_slip(equations, found.last_good)})
+    if (change) changes.push_back(*change);
+  return changes;
 }
 
 }  // namespace clatter::branches

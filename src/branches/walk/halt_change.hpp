@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "branches/branch.hpp"
 #include "branches/walk/touch.hpp"
@@ -20,11 +21,12 @@ struct HaltChange {
   Condition condition;                         ///< that makes it exact
   std::optional<HaltForm> before{}, beyond{};  ///< of that halt; nothing: the motion isn't one of these
 };
-/// That of a violation; nothing if it is none of halts.
-[[nodiscard]] std::optional<HaltChange> halt_change(const OrbitEquations& equations, const Narrowed& found);
-
 /// That of the shortest slip to a halt, if it is about to vanish: what begins it and that halt become one stick.
 [[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at);
+
+/// Those that a violation may be, the likeliest first; none if it is none of halts. As a slip vanishes, rounding
+/// decides which violation is found.
+[[nodiscard]] std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found);
 
 /// The scene and the motion of a change within a distance of the parameter, over the width of its range; nothing if
 /// there is none.

@@ -9,6 +9,8 @@
 namespace clatter::branches {
 namespace {
 
+constexpr double shortest = 1e-9;  // rad, of a slip
+
 /// Whether friction holds a mass where an orbit says so, and lets it go where it says so.
 template <Effects E>
 std::optional<Violation> at_halt(const Flights<double, E>& flights, const Orbit& orbit, std::size_t i) {
@@ -34,6 +36,7 @@ std::optional<Violation> in_flight(const Flights<double, E>& flights, const Orbi
   const double sign = sign_of(ahead), start = flights.start(flight), nu = p.oscillator.frequency,
                length = (flight.end - start) / nu;
   if (!(length > 0)) return Violation{Violation::Kind::slips, i, {}};
+  if (flight.arrives == EventKind::stick && length * nu < shortest) return Violation{Violation::Kind::vanishes, i, {}};
   return flights.with_arc(flight, [&](const auto& arc) -> std::optional<Violation> {
     const Margin gap{sign * (p.position(ahead) - arc.anchor()), -sign, 0.0}, velocity{0.0, 0.0, sign};
     const auto crossing = motion::first_crossing(arc, std::array{gap, velocity}, length);

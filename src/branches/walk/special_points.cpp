@@ -13,15 +13,18 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
   const auto there = walk.after(step);
   if (!there) return found;
   const auto look = [&](SpecialKind kind, const TestFunction& test, bool only_down, double from = 0.0) {
-    const auto begin = walk.after(from);
-    if (!begin) return;
-    const double a = test(*begin), b = test(*there);
+    const auto first = walk.after(from);
+    if (!first) return;
+    const double a = test(*first), b = test(*there);
     if ((a < 0) == (b < 0) || (only_down && a < 0)) return;
     if (const auto zero = walk.zero(test, step, from)) found.push_back({kind, *zero});
   };
   // a branch begins across the parameter if it is born in a flip or a loss of symmetry: that is no fold of it
   look(
       SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false, is_first ? step / 8 : 0.0);
+  // if a halt of no length begins there, derivatives have no digits
+  const bool begins_to_halt = is_first && std::ranges::any_of(equations.shape().impacts, halts, &OrbitImpact::event);
+  const double begin = begins_to_halt ? 1e-3 * step : 0.0;
   const bool has_impacts = equations.shape().size() > 0;
   if (has_impacts) {
     const SpecialKind kind = equations.shape().mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
@@ -30,14 +33,14 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
         [&](const CurvePoint& p) {
           return impact_map(equations.scene_at(p.at), equations.orbit_at(p.at)).distance_to(-1);
         },
-        false);
+        false, begin);
   }
   if (has_impacts || equations.shape().pressed != Side::none) {
     const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
       const auto at = [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)); };
       if (!changes(at(walk.here())) && !changes(at(*there))) return;
       look(
-          of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
+          of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true, begin);
     };
     look_for_maximum(SpecialKind::impact_speed, impact_speed);
     if (observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);

@@ -17,7 +17,8 @@ struct Violation {
     runs_on,         ///< the mass isn't slowed down as it comes to a stick
     sticks,          ///< the mass isn't pushed away from a reversal as hard as the static level of friction
     slips,           ///< friction doesn't hold the mass at a stick, or not for so long
-    stays            ///< nothing releases it from a stick
+    stays,           ///< nothing releases it from a stick
+    vanishes         ///< a slip to a stick has no length, which solves its equations at any speed
   };
   Kind kind = Kind::passes_through;
   std::size_t impact = 0;  ///< that the flight began with; or that pulls
