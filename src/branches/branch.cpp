@@ -49,6 +49,8 @@ class Follower {
   [[nodiscard]] Equations any_equations() const { return std::bind_front(&Follower::equations_for, this); }
   [[nodiscard]] RestingBranch resting() { return {problem_, settings_, symmetric_, speed_unit_, record_, waiting_}; }
   [[nodiscard]] double parameter(const FollowedScene& scene) const { return value_of(scene, settings_.along); }
+  /// How far, over the width of the range, the exact end of a branch may lie from that which bisection found.
+  [[nodiscard]] double near(double step) const { return std::max(step / 10, 1e-3 * settings_.largest_step); }
   [[nodiscard]] bool in_range(double value) const { return value >= settings_.range[0] && value <= settings_.range[1]; }
 
   void follow(const Waiting& from) {
@@ -91,16 +93,15 @@ class Follower {
     if (!closed && !record_.is_full()) walk(equations, start, {});
   }
 
-  /// A branch with one contact with a soft stop, or one interruption of a contact, more than its special point.
+  /// A branch with one contact with a soft stop, or interruption of one, or impact before a stick, more than its
+  /// origin.
   void follow_opened(const Waiting& from) {
     const auto begun = opened(any_equations(), from.scene, from.orbit, *from.opens, settings_.tolerance);
-    if (!begun) {
-      const OrbitEquations equations = equations_for(from.orbit);
+    const OrbitEquations equations = equations_for(begun ? begun->orbit : from.orbit);
+    if (!begun)
       return record_.fail(record_.point(equations, {equations.unknowns_of(from.scene, from.orbit), {}, 0.0}),
                           no_step_off);
-    }
     if (is_left_out(from, begun->tangent)) return record_.leave_out(*from.special);
-    const OrbitEquations equations = equations_for(begun->orbit);
     const CurvePoint start{begun->at, begun->tangent, 0.0};
     record_.meet(*from.special, record_.branch());
     record_.add(record_.point(equations, start));
@@ -161,8 +162,7 @@ class Follower {
       if (violation(equations, zero->at)) return end_in_graze(equations, walk, length, from);
       if (special_between(equations, walk, length, from)) return record_.end(record_.point(equations, *zero), "born");
       const BranchPoint last = record_.point(equations, *zero);
-      record_.add(last);
-      return record_.end(last, "range");
+      return record_.add(last), record_.end(last, "range");
     }
     record_.fail(record_.point(equations, walk.here()), no_step);
   }
@@ -231,7 +231,7 @@ class Follower {
     if (numbers_of<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
     const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, impact}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
-    if (!exact || std::abs(exact->back() - touch.beyond.at.back()) > 10 * step) return false;
+    if (!exact || std::abs(exact->back() - touch.beyond.at.back()) > near(step)) return false;
     const BranchPoint last = record_.point(there, {*exact, {}, touch.last_good.arclength});
     record_.add(last);
     const auto [special, is_new] = record_.note(SpecialKind::chatter_limit, last);
@@ -255,7 +255,7 @@ class Follower {
       return record_.end(record_.point(equations, touch.last_good), "born");
     if (touch.appears && !touch.halts && equations.shape().size() > 0 && ends_in_rest(equations, touch, step)) return;
     const auto exact = exact_graze(any_equations(), equations.scene_at(touch.beyond.at), touch.graze(),
-                                   1e-3 * speed_unit_, symmetric_, 10 * step, settings_.tolerance);
+                                   1e-3 * speed_unit_, symmetric_, near(step), settings_.tolerance);
     if (exact && exact->joins) return end_on(*exact, equations.shape());
     BranchPoint last = record_.point(equations, touch.last_good);
     if (!exact) return record_.add(last), record_.fail(last, no_graze);
@@ -292,15 +292,15 @@ class Follower {
     if (special_between(equations, walk, between.last_good.arclength - walk.here().arclength, from))
       return record_.end(last, "born");
     const double step = between.beyond.arclength - walk.here().arclength;
-    end_in_change({last, equations.scene_at(between.beyond.at), 10 * step}, changes);
+    end_in_change({last, equations.scene_at(between.beyond.at), near(step)}, changes);
   }
   void end_in_change(const NearEnd& end, const std::vector<HaltChange>& changes) {
     branches::end_in_change(any_equations(), settings_.tolerance, end, changes, record_, waiting_, generation_);
   }
 
   /// The branch ends on a motion that repeats sooner, or is symmetric, as that grazes soft stops, whose dampers change
-  /// its multipliers at once. A free motion that is symmetric, between stops that aren't alike, touches both at once,
-  /// too: then the motion with these contacts is the branch that ends.
+  /// its multipliers at once. A free motion that is symmetric between unlike stops touches both at once, too: then the
+  /// motion with these contacts is the branch that ends.
   void end_on(const ExactGraze& exact, const Orbit& ends) {
     const Condition condition{Condition::Kind::graze, 1, exact.impact};
     const OrbitEquations equations = equations_for(exact.orbit, {condition});

@@ -20,8 +20,9 @@ void end_in_change(const Equations& equations, double tolerance, const NearEnd& 
   record.add(last);
   const auto [special, is_new] = record.note(change.kind, at, change.condition);
   record.end(last, std::string(name_of(change.kind)));
-  if (!is_new || !change.beyond) return no_longer_waits(waiting, special, last.orbit);
-  waiting.push_back({exact->scene, with_form(*change.beyond), {}, special, generation});
+  if (!is_new || !(change.beyond || change.strikes)) return no_longer_waits(waiting, special, last.orbit);
+  waiting.push_back({exact->scene, with_form(change.beyond.value_or(HaltForm::stick)), {}, special, generation});
+  if (change.strikes) waiting.back().opens = exact->impact;
 }
 
 }  // namespace clatter::branches

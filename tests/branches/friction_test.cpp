@@ -127,6 +127,45 @@ TEST(Sticking, goes_on_past_the_graze_at_which_a_slip_vanishes) {
   }
 }
 
+/// Impacts in a forcing period of the motion that a scene settles on.
+std::size_t impacts_in_a_period(sweep::GivenProblem given, double nu) {
+  given.oscillator.frequency = nu;
+  const point::Problem problem = sweep::computed(given);
+  const PhasePoint settled = attractors::state_after(problem, 200.0).value();
+  return attractors::run_round(attractors::started(problem, settled, 0.0), 1).value().contacts.size();
+}
+
+/// A slip that ends in a stick comes as far as a stop: beyond, the mass strikes that, and sticks after a short rebound.
+TEST(Sticking, strikes_a_stop_that_its_slip_just_reaches) {
+  sweep::GivenProblem between = rubbing(0.0, 0.7537917420175924, 0.5447071533167794), above = between;
+  between.stops = {-0.3623123571635895, 0.3623123571635895, 0.3551697435651783, 0.3551697435651783};
+  between.start = {0.3023816290121704, 0.34431652018089265, 0.0};
+  above = rubbing(0.0, 0.7819195336535755, 0.41556263870910115);
+  above.oscillator.load = 0.013276054222406353;
+  above.stops = {-infinity, 0.2792844393465209, 1.0, 0.42884250168374793};
+  above.start = {-0.2518768554211011, -0.30018339221726653, 0.0};
+  for (const auto& [problem, low, more] : {std::tuple{between, 0.6, 2U}, {above, 0.725, 1U}}) {
+    const BranchSettings settings{.along = Parameter("nu"), .range = {low, 0.783}};
+    const Branches found = follow_branches(problem, settings);
+    EXPECT_EQ(std::ranges::count(found.ends, true, &BranchEnd::failed), 0);
+    const auto graze = std::ranges::find(found.special, SpecialKind::graze, &SpecialPoint::kind);
+    ASSERT_NE(graze, found.special.end());
+    EXPECT_EQ(graze->branches[1], 1);
+    const double at = graze->at.scene.oscillator.frequency;
+    EXPECT_EQ(impacts_in_a_period(problem, at - 1e-3), impacts_in_a_period(problem, at + 1e-3) + more);
+    const auto stick = std::ranges::find_if(graze->at.orbit.impacts, [&](const OrbitImpact& event) {
+      const double place = event.place + numbers_of<double>(graze->at.scene).middle();
+      return event.event == EventKind::stick && std::abs(std::abs(place) - problem.stops.upper) < 1e-12;
+    });
+    EXPECT_NE(stick, graze->at.orbit.impacts.end());
+    for (std::size_t i = 1; i < found.points.size(); ++i) {
+      if (found.points[i].branch != found.points[i - 1].branch) continue;
+      const double step = found.points[i].scene.oscillator.frequency - found.points[i - 1].scene.oscillator.frequency;
+      EXPECT_LE(std::abs(step), 1.05 * settings.largest_step * (0.783 - low));
+    }
+  }
+}
+
 /// Equations of a motion of a branch, in which the frequency varies.
 OrbitEquations along_frequency(const BranchPoint& point, std::vector<Condition> conditions = {}) {
   return {point.scene, point.orbit, {{Parameter("nu"), 1.0}}, 1.0, std::move(conditions)};

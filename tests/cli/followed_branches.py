@@ -13,6 +13,8 @@ from combinations import report
 from random_scenes import followed_scenes, is_beyond_soft
 from scene_runs import OBSERVED, Program
 
+LARGEST_STEP = 0.02  # of a branch, over the width of its range: the default of branch.largest_step
+
 
 class BranchCampaign:
     """Follows branches of random scenes along nu, and runs their points again."""
@@ -38,10 +40,17 @@ class BranchCampaign:
             special = [
                 (names[k], found["special_nu"][k]) for k, of in enumerate(found["special_branch"]) if number in of
             ]
+            self.jumps(i, number, found["nu"][on], scene.nu)
             self.turns(i, number, found["nu"][on], special)
             self.crosses(i, number, found["nu"][on], found["multiplier_re"][on], found["multiplier_im"][on], special)
         self.twice(i, found)
         self.run_again(i, scene, found)
+
+    def jumps(self, i, number, nu, at_start):
+        """No point is farther from the last one than the largest step, its end neither."""
+        longest = 1.05 * LARGEST_STEP * 0.7 * at_start
+        for k in np.flatnonzero(abs(np.diff(nu)) > longest):
+            self.fail("jumps", i, f"branch {number} from nu = {nu[k]} to {nu[k + 1]}")
 
     def turns(self, i, number, nu, special):
         """Where the parameter turns round there is a fold, or the branch is born."""

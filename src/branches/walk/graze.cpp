@@ -77,6 +77,21 @@ Orbit with_short(const FollowedScene& scene, const Orbit& orbit, std::size_t gra
   return out.with(begin, graze);
 }
 
+/// An orbit with a stick on a stop as if the mass struck that first, and slipped back for `advance` of the phase.
+Orbit with_rebound(const FollowedScene& scene, const Orbit& orbit, std::size_t stick, double advance) {
+  const Side stop = orbit.heading_before(stick);
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  OrbitImpact impact{stop, orbit.impacts[stick].phase}, halt = orbit.impacts[stick];
+  const double a = with_arcs(
+      scene, [&]<Effects E>() { return Flights<double, E>{p}.acceleration(halt.place, halt.phase, opposite(stop)); });
+  const double time = advance / p.oscillator.frequency;
+  impact.before = a * time / p.restitution(stop);
+  halt.phase += advance, halt.place -= a * time * time / 2;
+  Orbit out = orbit;
+  out.impacts[stick] = halt;
+  return out.with(impact, stick);
+}
+
 /// Motion between the stops with a contact, or an interruption, that begins with event `first`.
 struct Lasting {
   Orbit orbit;
@@ -87,7 +102,9 @@ struct Lasting {
 /// x = 0 has two contacts at once.
 std::optional<Lasting> with_lasting(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
                                     std::size_t graze, double advance, double tolerance) {
-  Lasting lasting{with_short(scene, orbit, graze, advance), {}, graze};
+  const bool rebounds = orbit.impacts[graze].event == EventKind::stick;
+  Lasting lasting{
+      rebounds ? with_rebound(scene, orbit, graze, advance) : with_short(scene, orbit, graze, advance), {}, graze};
   for (int contacts = 1; contacts <= 2; ++contacts) {
     const OrbitEquations there =
         equations(lasting.orbit, {{.kind = Condition::Kind::duration, .impact = lasting.first, .duration = advance}});
@@ -96,7 +113,7 @@ std::optional<Lasting> with_lasting(const Equations& equations, const FollowedSc
     const auto violated = violation(there, *at);
     lasting.at = *std::move(at);
     if (!violated) return lasting;
-    if (violated->kind != Violation::Kind::passes_through || violated->turning.event == EventKind::impact)
+    if (rebounds || violated->kind != Violation::Kind::passes_through || violated->turning.event == EventKind::impact)
       return std::nullopt;
     const std::size_t second = violated->impact + 1;
     const Orbit both = there.orbit_at(lasting.at).with(violated->turning, second);
@@ -134,8 +151,9 @@ std::optional<Vector> direction_into_motion(const OrbitEquations& equations, con
 std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
                              std::size_t graze, double tolerance) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
-  const double rate = std::max(p.oscillator.frequency, std::sqrt(std::abs(p.oscillator.stiffness) +
-                                                                 p.soft_stop(orbit.impacts[graze].side).stiffness));
+  const OrbitImpact& event = orbit.impacts[graze];
+  const double of_stop = halts(event.event) ? 0.0 : p.soft_stop(event.side).stiffness;
+  const double rate = std::max(p.oscillator.frequency, std::sqrt(std::abs(p.oscillator.stiffness) + of_stop));
   for (const double turned_by : {1e-3, 1e-2, 1e-4}) {
     const auto lasting =
         with_lasting(equations, scene, orbit, graze, p.oscillator.frequency / rate * turned_by, tolerance);

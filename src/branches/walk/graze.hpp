@@ -37,7 +37,8 @@ struct ExactGraze {
                                                           const std::vector<Vector>& directions, double tolerance);
 
 /// A motion with one contact with a soft stop, or one interruption of a contact, more than a graze, where that is
-/// short. It begins with the event that has the number of the graze. Nothing if there is none.
+/// short; or under dry friction with one impact, and a short rebound, before a stick on a stop. It begins with the
+/// event that has the number of the graze, or of the stick. Nothing if there is none.
 struct Opened {
   Orbit orbit;
   Vector at, tangent;  ///< of the equations with one parameter, towards longer ones

@@ -68,6 +68,14 @@ HaltChange sticking(const Orbit& orbit, const FollowedScene& scene, std::size_t 
   return change;
 }
 
+/// A slip to a stick comes as far as a stop: beyond, the mass strikes that.
+std::optional<HaltChange> reaching(const Orbit& orbit, std::size_t halt) {
+  if (orbit.impacts[halt].event != EventKind::stick) return std::nullopt;
+  HaltChange change{SpecialKind::graze, orbit, level(Kind::on_stop, halt, orbit.heading_before(halt)), HaltForm::stick};
+  change.strikes = true;
+  return change;
+}
+
 /// A stick has become no more, or the other way is open sooner.
 HaltChange slipping(const Orbit& orbit, const FollowedScene& scene, std::size_t i) {
   const OrbitImpact& halt = orbit.impacts[i];
@@ -139,6 +147,8 @@ std::optional<HaltChange> of_violation(const OrbitEquations& equations, const Na
   const std::size_t i = found.violated.impact;
   const bool jumps = scene.friction.static_level > scene.friction.kinetic;
   switch (found.violated.kind) {
+    case Violation::Kind::passes_through:
+      return orbit.size() > 0 ? reaching(orbit, (i + 1) % orbit.size()) : std::nullopt;
     case Violation::Kind::halts:
       return grazing(orbit, scene, found.violated, jumps);
     case Violation::Kind::runs_on:

@@ -20,6 +20,7 @@ struct HaltChange {
   Orbit orbit;                                 ///< near it, with the halt that the condition is on, as a stick
   Condition condition;                         ///< that makes it exact
   std::optional<HaltForm> before{}, beyond{};  ///< of that halt; nothing: the motion isn't one of these
+  bool strikes = false;                        ///< beyond, the mass strikes the stop and sticks after a short rebound
 };
 /// That of the shortest slip to a halt, if it is about to vanish: what begins it and that halt become one stick.
 [[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at);
