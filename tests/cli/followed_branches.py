@@ -127,8 +127,13 @@ class BranchCampaign:
                 continue
             inside = [k for k in inside if not self.may_jump(found, of[k])]
             time = f'mode = "transient"\nduration = {2 * math.pi * ratio!r}\n'
-            nudge = 1e-11  # multipliers don't tell how far changes are stretched between two rests
-            nudged = [scenes[k].changed(v0=scenes[k].v0 + nudge * (1 if scenes[k].v0 >= 0 else -1)) for k in inside]
+            nudge = 1e-11  # multipliers don't tell how far changes are stretched between two rests, or after one
+            nudged = [
+                scenes[k].changed(
+                    v0=scenes[k].v0 + nudge * (1 if scenes[k].v0 >= 0 else -1), f=scenes[k].f * (1 + nudge)
+                )
+                for k in inside
+            ]
             runs, aside = (self.program.run(starts, time, OBSERVED) for starts in ([scenes[k] for k in inside], nudged))
             for row, k in enumerate(inside):
                 s, point = scenes[k], of[k]
