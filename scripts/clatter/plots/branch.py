@@ -29,7 +29,7 @@ MARKS = {  # special point: its symbol, and whether it is filled
     "cusp": ("p", True),
     "crossing-sliding": ("<", False),
     "grazing-sliding": (">", False),
-    "switching-sliding": ("8", False),
+    "switching-sliding": ("s", False),
 }
 CURVES = {  # special point: name and dashes of its curve in the plane of two parameters
     "fold": ("folds", "-"),
