@@ -101,8 +101,11 @@ class BranchFriction(BranchRuns):
         self.assertEqual(len(ends), 1, special)
         self.assertEqual(ends[0]["branches"], [0])
         at = ends[0]["nu"]
-        # a little before it a run from rest already ends in the motion that sticks, which is another one
-        before, beyond = self.stick_fractions(scene, "nu", [at + 1e-3, at - 1e-6])
+        with h5py.File(self.directory / "a.branch.h5") as data:
+            x, v = (data[name][data["special_nu"][()] == at][0] for name in ("special_x", "special_v"))
+        # from rest a run ends in the motion that sticks sooner, which is another one
+        from_there = scene + f"x0 = {float(x)!r}\nv0 = {float(v)!r}\n"
+        before, beyond = self.stick_fractions(from_there, "nu", [at + 1e-6, at - 1e-6])
         self.assertEqual(before, 0)
         self.assertGreater(beyond, 0.01)
 

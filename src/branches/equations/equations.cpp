@@ -182,7 +182,8 @@ void OrbitEquations::add_multiplier(const FollowedScene& scene, const Orbit& all
     const Flights<Second, E> flights(numbers_along<Second>(scene, axes_));
     for (std::size_t i = 0; i < count; ++i) {
       const FlightEnd<Second> end = flights.fly(flight_of<Second>(orbit, i));
-      links.push_back(link_of(end.beyond.slope, end.coordinate.slope, last_is_mirrored(orbit, i)));
+      links.push_back(
+          link_of(end.beyond.slope, end.coordinate.slope, last_is_mirrored(orbit, i), orbit.impact(i + 1).event));
     }
   };
   const SceneNumbers<First> p = numbers_along<First>(scene, axes_);

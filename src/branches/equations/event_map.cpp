@@ -20,7 +20,8 @@ std::vector<Link<double>> links_of(const FollowedScene& scene, const Orbit& orbi
     std::vector<Link<double>> links;
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const FlightEnd<Three> end = flights.fly(flight_of<Three>(orbit, i));
-      links.push_back(link_of(end.beyond.slope, end.coordinate.slope, last_is_mirrored(orbit, i)));
+      links.push_back(
+          link_of(end.beyond.slope, end.coordinate.slope, last_is_mirrored(orbit, i), orbit.impact(i + 1).event));
     }
     return links;
   });

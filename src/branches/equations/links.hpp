@@ -74,11 +74,14 @@ struct Link {
   Number denominator;
 };
 
-/// From derivatives of gap and velocity by the beginning's phase and velocity and by the end's phase. The mirrored
-/// orbit's last flight ends in the mirror image of its first impact.
+/// From derivatives of gap and velocity, or at a halt of velocity and place, by the beginning's phase and velocity and
+/// by the end's phase. The mirrored orbit's last flight ends in the mirror image of its first impact. A stick's phase
+/// changes nothing, and its place, at which the velocity is 0, doesn't depend on it: so a stick without a length has a
+/// link, too, though the mass isn't slowed down there.
 template <class Number>
-Link<Number> link_of(const std::array<Number, 3>& x, const std::array<Number, 3>& v, bool mirrored) {
+Link<Number> link_of(const std::array<Number, 3>& x, const std::array<Number, 3>& v, bool mirrored, EventKind arrives) {
   Link<Number> link{{{{-x[0], -x[1]}, {x[2] * v[0] - v[2] * x[0], x[2] * v[1] - v[2] * x[1]}}}, x[2]};
+  if (arrives == EventKind::stick) link = {{{{Number(0), Number(0)}, {v[0], v[1]}}}, Number(1)};
   if (mirrored) link.numerator[1] = {-link.numerator[1][0], -link.numerator[1][1]};
   return link;
 }

@@ -55,14 +55,18 @@ Orbit merged(const Orbit& orbit) {
   return one;
 }
 
-/// A reversal comes to be a stick: a short one, or one that begins as the slip after it has become no more.
+/// A reversal comes to be a stick: a short one, or one that begins as the slip after it has become no more, or at once.
 HaltChange sticking(const Orbit& orbit, const FollowedScene& scene, std::size_t i, bool jumps) {
   const OrbitImpact& halt = orbit.impacts[i];
   HaltChange change{SpecialKind::crossing_sliding, orbit.with_event(i, EventKind::stick),
                     level(Kind::level, i, halt.side), HaltForm::reversal, HaltForm::stick};
   if (push_rises(scene, halt)) return change;
-  change.kind = SpecialKind::switching_sliding, change.before.reset();
-  if (jumps) change.beyond.reset();
+  change.kind = SpecialKind::switching_sliding;
+  if (jumps) {  // to a long stick, while the slip after the reversal doesn't vanish
+    change.orbit = orbit, change.beyond.reset();
+    return change;
+  }
+  change.before.reset();
   if (orbit.impact(i + 1).event == EventKind::stick)
     change.orbit = merged(orbit.from_event(i)), change.condition.impact = 0;
   return change;

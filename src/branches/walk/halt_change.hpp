@@ -17,7 +17,7 @@ enum class HaltForm : std::uint8_t { stick, reversal, none };
 /// (di Bernardo et al. 2008).
 struct HaltChange {
   SpecialKind kind;
-  Orbit orbit;                                 ///< near it, with the halt that the condition is on, as a stick
+  Orbit orbit;                                 ///< near it, with the halt that the condition is on
   Condition condition;                         ///< that makes it exact
   std::optional<HaltForm> before{}, beyond{};  ///< of that halt; nothing: the motion isn't one of these
   bool strikes = false;                        ///< beyond, the mass strikes the stop and sticks after a short rebound
