@@ -108,7 +108,7 @@ class BranchCampaign:
     @staticmethod
     def may_jump(found, point):
         """Whether a point is one at which dry friction begins to hold the mass, or no longer does."""
-        changes = [b"sliding" in kind for kind in found["special_kind"]]
+        changes = [b"sliding" in kind or kind == b"release tangency" for kind in found["special_kind"]]
         return np.any(np.abs(found["special_nu"][changes] - found["nu"][point]) <= 1e-9)
 
     def run_again(self, i, scene, found):
