@@ -57,6 +57,12 @@ draw slide --only x_max --ylim '0 mm, 6.6 mm' --size 5x3.8
   --set observe.trajectory=1000 -o "$work/slide_sticks.h5" -q
 "$source_dir/scripts/plot.py" "$work/slide_sticks.h5" --only trajectory --size 7x5 --title 'Slide that sticks at each turn' \
   --format svg -o "$out"
+draw impact_damper --only x_max --size 5x3.8
+draw energy_sink --only x_max,impacts_per_period --size 7x3.5
+"$clatter" run "$source_dir/configs/energy_sink.toml" --set scene.f=0.009 --set observe.trajectory=1000 \
+  --set observe.impact_log=true --set observe.stability=false -o "$work/energy_sink_motion.h5" -q
+"$source_dir/scripts/plot.py" "$work/energy_sink_motion.h5" --only trajectory --size 7x5 \
+  --title 'Both masses of an energy sink' --format svg -o "$out"
 draw soft_history --only trajectory --size 7x5
 draw basins --only attractor --size 6x3.8
 draw zones --size 8x4.2

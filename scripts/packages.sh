@@ -3,7 +3,7 @@
 
 # libgtest-dev is among the build's, since the preset configures the tests too: one configuration for both scripts.
 BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libhdf5-dev libboost-program-options-dev libtomlplusplus-dev
-                libfftw3-dev nettle-dev zlib1g-dev libxsimd-dev nlohmann-json3-dev libgtest-dev)
+                libfftw3-dev libeigen3-dev nettle-dev zlib1g-dev libxsimd-dev nlohmann-json3-dev libgtest-dev)
 PLOT_PACKAGES=(python3 python3-h5py python3-numpy python3-matplotlib)
 TEST_PACKAGES=(python3-pandas python3-xarray python3-h5netcdf python3-netcdf4 python3-scipy python3-yaml netcdf-bin
                hdf5-tools strace python3-pip python3-setuptools python3-wheel mandoc zsh fish libflint-arb-dev

@@ -135,6 +135,14 @@ std::vector<KeyAndNumber> computed_scene(const point::Problem& problem) {
   if (has_friction(problem.friction))
     scene.insert(scene.end(),
                  {{"friction", problem.friction.kinetic}, {"friction_static", problem.friction.static_level}});
+  if (const LooseMass& loose = problem.loose; has_loose_mass(loose))
+    scene.insert(scene.end(), {{"loose_mass", loose.ratio},
+                               {"loose_lower", loose.lower},
+                               {"loose_upper", loose.upper},
+                               {"loose_R", loose.restitution},
+                               {"loose_load", loose.load},
+                               {"loose_x0", loose.place},
+                               {"loose_v0", loose.velocity}});
   scene.insert(scene.end(), {{"x0", problem.start.displacement}, {"v0", problem.start.velocity}});
   return scene;
 }

@@ -26,13 +26,15 @@ constexpr std::string_view in_machine =
     "0.1\n\n"
     "[sweep]\nfrequency = [1, 2]\nx0 = [0]\n\n[observe]\n";
 
-/// A configuration with every observable, by the example of its key.
+/// A configuration with every observable, by the example of its key, and what a loose mass adds to them.
 config::Config config_with_all(std::string_view scene) {
   std::string text(scene);
   for (const Key& key : config::keys())
     if (key.section == "observe")
       text += std::string(key.name) + " = " + config::toml_value(config::example_setting(key)) + '\n';
   config::Config config = config::parse_config(text, "results");
+  auto& observe = config.sweep.problem.observe;
+  observe.loose_extrema = observe.loose_trajectory = observe.loose_section = observe.loose_stability = true;
   config.sweep.follow = 0, config.sweep.direction = sweep::Direction::both;
   return config;
 }

@@ -135,7 +135,8 @@ CertifiedPoint certified(const BranchPoint& point, const StartProblem& start) {
   result.end = problem.start;
   result.x_min = std::max(range.x_min, rigid.lower), result.x_max = std::min(range.x_max, rigid.upper);
   result.v_min = range.v_min, result.v_max = range.v_max;
-  result.multiplier_re = point.multiplier_re, result.multiplier_im = point.multiplier_im;
+  std::ranges::copy(point.multiplier_re, result.multiplier_re.begin());
+  std::ranges::copy(point.multiplier_im, result.multiplier_im.begin());
   result.impact_word = point.orbit.word();
   result.symmetric = is_symmetric(point.scene) ? point.orbit.mirrored : std::nan("");
   return certified_period(problem, result);

@@ -12,6 +12,7 @@ namespace {
 /// A stop that is not given does not exist; a scene without any was hardly meant.
 void check_stops_given(const Settings& settings) {
   if (settings.given_symmetric_stops() || settings.given("stop_lower") || settings.given("stop_upper")) return;
+  if (has_loose_mass(settings)) return;
   const std::string section(settings.scene_section), both = settings.is_si() ? "gap" : "xs";
   fail(settings.location_of_section(section), '\'' + both + "' is missing in [" + section + "]; give " + both +
                                                   ", or stop_lower, stop_upper or both (-inf and inf: no stop)");

@@ -101,6 +101,9 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   sweep::Sweep sweep{.problem = given_problem(settings), .follow = followed_dimension(settings, groups)};
   sweep.problem.observe.of_soft_stops =
       is_soft_somewhere(settings, Side::lower) || is_soft_somewhere(settings, Side::upper);
+  auto& observed = sweep.problem.observe;
+  observed.loose_extrema = observed.loose_trajectory = observed.loose_section = observed.loose_stability =
+      has_loose_mass(settings);
   sweep.problem.observe.of_friction = sweep.problem.observe.of_sticks = has_friction_somewhere(settings);
   if (sweep.follow) sweep.direction = direction_of(settings);
   for (const std::vector<std::size_t>& group : groups) {
@@ -235,10 +238,12 @@ std::optional<branches::BranchSettings> branch_settings_of(const Settings& setti
 Config config_of(ParsedConfig parsed) {
   Settings settings = check_keys(std::move(parsed));
   let_command_line_win(settings);
+  check_loose_mass(settings);
   check_alternatives(settings);
   spread_sobol(settings);
   const AxisGroups groups = group_axes(settings);
-  check_stops_and_start(settings, groups);
+  check_walls_and_start(settings, groups);
+  if (!has_loose_mass(settings)) check_stops_and_start(settings, groups);
   check_soft_stops(settings, groups);
   check_sensitivity(settings);
   Config config;

@@ -38,9 +38,16 @@ bool is_damped_otherwise(const Settings& settings, const Key& key) {
          (key.name == "stop_damping_upper" && (given("stop_R") || given("stop_R_upper")));
 }
 
+/// Whether a key is one of a loose mass.
+bool is_of_loose_mass(const Key& key) {
+  const auto parameter = describes_scene(key.section) ? Parameter::of(key.name) : std::nullopt;
+  return parameter && parameter->is_loose();
+}
+
 /// Whether the default of a key belongs in the text: not if its alternative was given.
 bool default_counts(const Settings& settings, const Key& key) {
   if (is_excluded(settings, key) || is_damped_otherwise(settings, key)) return false;
+  if (is_of_loose_mass(key) && !has_loose_mass(settings)) return false;
   if (key.other == "xs" || key.other == "gap") return !settings.given_symmetric_stops();
   if (!key.other.empty()) return !key.fallback.empty() && is_half_given(settings, key.other);
   if (is_half_given(settings, key.name)) return false;
@@ -90,13 +97,17 @@ std::string shown_value(const Key& key, Format format) {
   return std::string(key.has_default() ? key.fallback : key.example);
 }
 
-/// One key of the commented configuration below its meaning. Of keys without a default only xs is in use, since a scene
-/// needs stops, and [machine] isn't, since [scene] is.
+/// Whether a key of the commented configuration is in use. Of keys without a default only xs is, since a scene needs
+/// stops; [machine] isn't, since [scene] is, nor is a loose mass, which goes with no stops.
+bool is_used(const Key& key) {
+  return key.section != "machine" && !is_of_loose_mass(key) && (key.has_default() || key.name == "xs");
+}
+
+/// One key of the commented configuration below its meaning.
 std::string commented(const Key& key, Format format) {
   const std::string mark = format == Format::toml ? "#" : ";";
-  const bool used = key.section != "machine" && (key.has_default() || key.name == "xs");
   const std::string value = shown_value(key, format), meaning = std::string(key.help) + " (" + permitted(key) + ')';
-  return mark + ' ' + wrapped(meaning, mark + ' ') + (used ? "" : mark) + std::string(key.name) +
+  return mark + ' ' + wrapped(meaning, mark + ' ') + (is_used(key) ? "" : mark) + std::string(key.name) +
          (value.empty() ? " =" : " = ") + value + '\n';
 }
 

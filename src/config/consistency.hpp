@@ -56,6 +56,14 @@ void check_alternatives(const Settings& settings);
 /// stops and start are none that shaking or friction go with.
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 
+/// Throws ConfigError if a loose mass lacks a key that it needs, or something is asked for that it doesn't have; and if
+/// at some point of the sweep its walls are in the wrong order, or it doesn't start between them.
+void check_loose_mass(const Settings& settings);
+void check_walls_and_start(const Settings& settings, const AxisGroups& groups);
+
+/// Whether there is a loose mass.
+[[nodiscard]] bool has_loose_mass(const Settings& settings);
+
 /// Whether there is dry friction at some point of the sweep.
 [[nodiscard]] bool has_friction_somewhere(const Settings& settings);
 

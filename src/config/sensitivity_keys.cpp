@@ -12,7 +12,8 @@ namespace {
 std::vector<std::string_view> keys_of_motion(std::string_view section) {
   std::vector<std::string_view> names;
   for (const Parameter parameter : all_parameters)
-    if (parameter.is_in(section) && parameter.role() != Role::start && !parameter.row().is_with_unit)
+    if (parameter.is_in(section) && parameter.role() != Role::start && !parameter.is_loose() &&
+        !parameter.row().is_with_unit)
       names.push_back(parameter.key());
   return names;
 }

@@ -3,67 +3,16 @@
 #include <string>
 
 #include "config/consistency.hpp"
+#include "config/placed.hpp"
 #include "config/suggestion.hpp"
 
 namespace clatter::config {
 namespace {
 
-/// A stop or the start: its position on the x axis at every point of the sweep.
-struct Quantity {
-  std::string name;
-  std::vector<double> values;
-  const Setting* given = nullptr;        ///< nullptr: a default
-  std::optional<std::size_t> dimension;  ///< along which it varies
-};
-
-Quantity quantity(const Settings& settings, const AxisGroups& groups, Parameter parameter) {
-  const Setting* const given = settings.given(parameter);
-  const std::string name(parameter.key());
-  if (given == nullptr) return {name, {settings.number(settings.scene_section, name)}, nullptr, std::nullopt};
-  const auto numbers = given->numbers();
-  return {name, {numbers.begin(), numbers.end()}, given, dimension_of(settings, given, groups)};
-}
-
 /// The lower (-1) or the upper (+1) one of symmetric stops.
-Quantity symmetric_stop(const Settings& settings, const AxisGroups& groups, double side) {
-  Quantity stop = quantity(settings, groups, settings.is_si() ? Parameter("gap") : Parameter("xs"));
-  for (double& value : stop.values) value = side * std::abs(value);
-  const std::string place = settings.is_si() ? "gap" : "|xs|";
-  stop.name = side < 0 ? '-' + place : place;
-  return stop;
-}
-
-using Permitted = bool (*)(double, double);
-
-[[noreturn]] void refuse(const Quantity& low, std::size_t i, const Quantity& high, std::size_t j,
-                         const std::string& rule) {
-  const bool at_high = low.given == nullptr || (high.name == "x0" && high.given != nullptr);
-  const SourceLocation& location = at_high ? high.given->location_of(j) : low.given->location_of(i);
-  fail(location, low.name + " = " + number_text(low.values[i]) + " and " + high.name + " = " +
-                     number_text(high.values[j]) + "; expected " + rule);
-}
-
-/// Compares two quantities value by value if they vary together, else the largest value of the lower one with the
-/// smallest of the higher.
-void compare(const Quantity& low, const Quantity& high, Permitted permitted, const std::string& rule) {
-  if (low.dimension && low.dimension == high.dimension) {
-    for (std::size_t i = 0; i < low.values.size(); ++i) {
-      if (!permitted(low.values[i], high.values[i])) refuse(low, i, high, i, rule);
-    }
-    return;
-  }
-  const auto i = std::max_element(low.values.begin(), low.values.end()) - low.values.begin();
-  const auto j = std::min_element(high.values.begin(), high.values.end()) - high.values.begin();
-  const auto low_index = static_cast<std::size_t>(i), high_index = static_cast<std::size_t>(j);
-  if (!permitted(low.values[low_index], high.values[high_index])) refuse(low, low_index, high, high_index, rule);
-}
-
-/// The place of a value other than 0 of a setting, or nullptr.
-const SourceLocation* place_of_nonzero(const Setting* amplitude) {
-  if (amplitude == nullptr) return nullptr;
-  const auto values = amplitude->numbers();
-  const auto found = std::ranges::find_if(values, [](double value) { return value != 0; });
-  return found == values.end() ? nullptr : &amplitude->location_of(static_cast<std::size_t>(found - values.begin()));
+Placed symmetric_stop(const Settings& settings, const AxisGroups& groups, double side) {
+  return mirrored(placed(settings, groups, settings.is_si() ? Parameter("gap") : Parameter("xs")), side,
+                  settings.is_si() ? "gap" : "|xs|");
 }
 
 /// Throws ConfigError if neither a spring nor a stop keeps the mass.
@@ -115,7 +64,7 @@ void check_friction(const Settings& settings, const AxisGroups& groups) {
   if (place == nullptr) return;
   if (settings.given("friction_static") != nullptr)
     compare(
-        quantity(settings, groups, "friction"), quantity(settings, groups, "friction_static"),
+        placed(settings, groups, "friction"), placed(settings, groups, "friction_static"),
         [](double kinetic, double level) { return kinetic <= level; }, "friction <= friction_static");
   if (place_of_nonzero(settings.given("stop_amplitude")) != nullptr)
     fail(*place,
@@ -182,23 +131,21 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
   check_shaking(settings);
   check_friction(settings, groups);
   const bool symmetric = settings.given_symmetric_stops() != nullptr;
-  Quantity lower = symmetric ? symmetric_stop(settings, groups, -1) : quantity(settings, groups, "stop_lower");
-  Quantity upper = symmetric ? symmetric_stop(settings, groups, 1) : quantity(settings, groups, "stop_upper");
-  const Permitted below = [](double left, double right) { return left < right; };
-  const Permitted not_above = [](double left, double right) { return left <= right; };
-  if (!symmetric) compare(lower, upper, below, "stop_lower < stop_upper");
+  Placed lower = symmetric ? symmetric_stop(settings, groups, -1) : placed(settings, groups, "stop_lower");
+  Placed upper = symmetric ? symmetric_stop(settings, groups, 1) : placed(settings, groups, "stop_upper");
+  if (!symmetric) compare(lower, upper, is_below, "stop_lower < stop_upper");
   if (settings.given("start_period")) return;  // it starts on the lower stop
   // along `follow` only the first point starts from [scene]; a later one beyond a rigid stop is moved onto it
   const auto followed = followed_dimension(settings, groups);
-  const auto at_start = [&](Quantity quantity) {
+  const auto at_start = [&](Placed quantity) {
     if (followed && quantity.dimension == followed) quantity.values.resize(1);
     return quantity;
   };
   lower = at_start(lower), upper = at_start(upper);
-  const Quantity start = at_start(quantity(settings, groups, "x0"));
+  const Placed start = at_start(placed(settings, groups, "x0"));
   const std::string rule = "a start between the stops, " + lower.name + " <= x0 <= " + upper.name;
-  if (!is_soft_everywhere(settings, Side::lower)) compare(lower, start, not_above, rule);
-  if (!is_soft_everywhere(settings, Side::upper)) compare(start, upper, not_above, rule);
+  if (!is_soft_everywhere(settings, Side::lower)) compare(lower, start, is_not_above, rule);
+  if (!is_soft_everywhere(settings, Side::upper)) compare(start, upper, is_not_above, rule);
 }
 
 bool has_friction_somewhere(const Settings& settings) { return place_of_friction(settings) != nullptr; }

@@ -76,6 +76,7 @@ constexpr std::array quantity_names{Name{Quantity::number, "a number without uni
                                     Name{Quantity::time, "a time", "s"},
                                     Name{Quantity::frequency, "a frequency", "Hz", ", rad/s, rpm or 1/min"},
                                     Name{Quantity::velocity, "a velocity", "m/s"},
+                                    Name{Quantity::acceleration, "an acceleration", "m/s2"},
                                     Name{Quantity::mass, "a mass", "kg"},
                                     Name{Quantity::force, "a force", "N"},
                                     Name{Quantity::stiffness, "a stiffness", "N/m"},

@@ -138,6 +138,7 @@ bool no_soft_lower(const Settings& settings) { return !is_soft_somewhere(setting
 bool no_soft_upper(const Settings& settings) { return !is_soft_somewhere(settings, Side::upper); }
 bool no_soft_stop(const Settings& settings) { return no_soft_lower(settings) && no_soft_upper(settings); }
 bool no_stops(const Settings& settings) { return no_lower(settings) && no_upper(settings); }
+bool no_impacts(const Settings& settings) { return no_stops(settings) && !has_loose_mass(settings); }
 
 /// A transient has no period; at symmetric stops `period` still gives the ratio of velocities.
 bool no_period(const Settings& settings) {
@@ -213,7 +214,7 @@ constexpr Rule rules[] = {
     {"time", "max_periods", transient, in_transient, or_steady},
     {"time", "window", transient, in_transient, or_steady},
     {"time", "tolerance", transient, in_transient, or_steady},
-    {"time", "max_impacts", no_stops, "without stops", or_stops},
+    {"time", "max_impacts", no_impacts, "without stops", or_stops},
     {"time", "duration", steady, "without mode = \"transient\"", "write that in [time]"},
     {"observe", "harmonics_method", no_harmonics, no_harmonic, or_harmonics},
     {"observe", "harmonics_samples", no_harmonics, no_harmonic, or_harmonics},

@@ -46,7 +46,16 @@ class Arc {
   /// eq. 3.
   [[nodiscard]] Motion<Number> near(const Motion<Number>& m, const Number& d) const;
 
+  /// The change of displacement and velocity in a short time d after `m` beyond that of a constant acceleration, to
+  /// relative accuracy.
+  [[nodiscard]] FreeMotion<Number> bend(const Motion<Number>& m, const Number& d) const;
+
  private:
+  static constexpr std::size_t terms =
+      std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  ///< of the series: (1/4)^n / n! below rounding
+  /// The terms x^(k) d^k / k! of the Taylor series of eq. 3, the first of which is left 0.
+  [[nodiscard, gnu::always_inline]] inline std::array<Number, terms> series(const Motion<Number>& m,
+                                                                            const Number& d) const;
   [[nodiscard]] Motion<Number> with_free_part(Motion<Number> m) const {
     m.free_x =
         constants_->from_equilibrium(m.x, anchor_, m.offset) - constants_->response_displacement(m.sine, m.cosine),
@@ -112,10 +121,7 @@ Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>
 }
 
 template <class Number, Effects E>
-Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) const {
-  using std::exp;
-  constexpr std::size_t terms = std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  // (1/4)^n / n! below rounding
-  if (!(d > 0)) return m;
+auto Arc<Number, E>::series(const Motion<Number>& m, const Number& d) const -> std::array<Number, terms> {
   const Number square = d * d;
   std::array<Number, terms> t;  // t[k] = x^(k) d^k / k!
   t[0] = 0, t[1] = m.v * d, t[2] = m.a * square / 2;
@@ -131,6 +137,23 @@ Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) co
     }
     t[k + 2] = sum / static_cast<double>((k + 1) * (k + 2));
   }
+  return t;
+}
+
+template <class Number, Effects E>
+FreeMotion<Number> Arc<Number, E>::bend(const Motion<Number>& m, const Number& d) const {
+  if (!(d > 0)) return {Number(0), Number(0)};
+  const std::array<Number, terms> t = series(m, d);
+  Number offset = 0, gain = 0;
+  for (std::size_t k = terms - 1; k >= 3; --k) offset += t[k], gain += static_cast<double>(k) * t[k];
+  return {offset, gain / d};
+}
+
+template <class Number, Effects E>
+Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) const {
+  using std::exp;
+  if (!(d > 0)) return m;
+  const std::array<Number, terms> t = series(m, d);
   Number offset = 0, gain = 0;  // from the small terms up
   for (std::size_t k = terms - 1; k >= 1; --k) {
     offset += t[k];

@@ -9,10 +9,10 @@ namespace clatter::motion {
 
 namespace detail {
 
-/// `y`, or its derivative of a motion at the rate `z`.
+/// `y`, or its first or second derivative of a motion at the rate `z`.
 template <class Number>
 [[nodiscard]] Number derived(const Number& y, const Number& z, int derivative) {
-  return derivative == 0 ? y : Number(y * z);
+  return derivative == 0 ? y : derivative == 1 ? Number(y * z) : Number(y * z * z);
 }
 
 /// With k <= 0 by modes (eq. 46): a slow one that grows or stays, and a fast one that decays.
@@ -32,11 +32,11 @@ template <class Number, Effects E>
 
 }  // namespace detail
 
-/// Bound of span^6 |y^(6)| from `m` on for a time `span`, for y = x (derivative 0) or y = x' (derivative 1), by eq. 14;
-/// under heavy damping the smaller of that and the bound mode by mode, since the fast mode dies out.
-template <class Number, Effects E>
-[[nodiscard]] Number sixth_bound(const ArcConstants<Number, E>& c, const Motion<Number>& m, const Number& span,
-                                 int derivative) {
+/// Bound of span^6 |y^(6)| from `m` on for a time `span`, for y = x (derivative 0), x' (1) or x'' (2, if `bounds` has
+/// it), by eq. 14; under heavy damping the smaller of that and the bound mode by mode, since the fast mode dies out.
+template <class Number, Effects E, std::size_t count>
+[[nodiscard]] Number sixth_bound(const ArcConstants<Number, E>& c, const DerivativeBounds<Number, count>& bounds,
+                                 const Motion<Number>& m, const Number& span, int derivative) {
   using std::abs, detail::derived;
   const auto i = static_cast<std::size_t>(derivative);
   if constexpr (E.stiffness && E.damping == Damping::heavy)
@@ -44,7 +44,7 @@ template <class Number, Effects E>
   Number energy_norm = abs(m.free_x) + abs(m.free_v);
   if constexpr (E.stiffness) energy_norm = c.natural * abs(m.free_x) + abs(m.free_v);
   if constexpr (E.forcing == Forcing::secular) energy_norm += abs(c.f) * span;
-  Number bound = times_sixth_power(Number(c.derivative_bounds.free[i] * energy_norm), span);
+  Number bound = times_sixth_power(Number(bounds.free[i] * energy_norm), span);
   if constexpr (E.damping == Damping::heavy) {
     const Number slow_part = derived(Number(abs(m.free_x - m.fast_x)), c.slow, derivative),
                  fast_part = derived(Number(abs(m.fast_x)), c.fast, derivative);
@@ -54,8 +54,13 @@ template <class Number, Effects E>
   }
   if constexpr (E.forcing == Forcing::regular)
     bound += times_sixth_power(derived(c.response.amplitude, c.nu, derivative), Number(c.nu * span));
-  if constexpr (E.forcing == Forcing::secular) bound += times_sixth_power(c.derivative_bounds.forced[i], span);
+  if constexpr (E.forcing == Forcing::secular) bound += times_sixth_power(bounds.forced[i], span);
   return bound;
+}
+template <class Number, Effects E>
+[[nodiscard]] Number sixth_bound(const ArcConstants<Number, E>& c, const Motion<Number>& m, const Number& span,
+                                 int derivative) {
+  return sixth_bound(c, c.derivative_bounds, m, span, derivative);
 }
 
 /// Bound of |x - equilibrium| from `m` on for a time `span` (eq. 16); at resonance the force may raise the energy norm

@@ -123,6 +123,7 @@ class ArcConstants {
   }
 
   Number h, f, nu, load;       ///< of the oscillator; without forcing nu is that of `counting_frequency`
+  Number carried{};            ///< a loose mass that a wall presses, over the main mass; 0: none
   Number friction{};           ///< the part of the load that is dry friction, against the velocity of a slip
   Number k;                    ///< stiffness; 1 unless it is an effect
   Number equilibrium;          ///< the displacement at which the spring balances the load; 0 without a spring
@@ -188,6 +189,7 @@ void ArcConstants<Number, E>::set_stiffness(const Number& stiffness) {
   unbalanced = sprung ? Number(0) : load;
   balance = equilibrium;
   root = k > 0 ? Number(sqrt(abs((natural - h) * (natural + h)))) : norm(h, natural);
+  if (E.damping == Damping::light && !(root > 0)) root = epsilon<Number>() * natural;  // h^2 < k by rounding alone
   fast = h + root;
   slow = sprung ? Number(k / fast) : Number(0);
   if constexpr (E.forcing == Forcing::regular) response = response_to(Number(k - nu * nu), h, f, nu);

@@ -10,15 +10,31 @@
 
 namespace clatter::motion {
 
-/// The gaps to the lower and the upper stop, margins without a share of the velocity. The speed of a contact in free
-/// undamped flight is that of its energy.
+/// Whether motion stays between two places for a time from an instant of an arc on (eq. 16).
 template <class Number, Effects E>
+[[nodiscard]] bool stays_between(const Arc<Number, E>& arc, const Motion<Number>& here, const Number& time,
+                                 const Number& lower, const Number& upper) {
+  const Number far = reach(arc.constants(), here, time), middle = arc.constants().equilibrium;
+  return lower < middle - far && middle + far < upper;
+}
+
+/// Whether the energy of a flight is conserved.
+template <class Number, Effects E>
+[[nodiscard]] bool conserves_energy(const Arc<Number, E>& arc) {
+  if constexpr (E.stiffness) return arc.constants().h == 0 && arc.constants().f == 0;
+  return E.damping == Damping::none && E.forcing == Forcing::none;
+}
+
+/// The gaps to the lower and the upper stop, margins without a share of the velocity. The speed of a contact in free
+/// undamped flight is that of its energy. An arc is one of a mass between stops, or of a loose mass in its housing.
+template <class A>
 class GapRule {
  public:
+  using Number = typename A::Number;
   static constexpr std::size_t count = 2;
   static constexpr bool alike = true;
 
-  GapRule(const Arc<Number, E>& arc, const Stops& stops)
+  GapRule(const A& arc, const Stops& stops)
       : arc_(arc), lower_(stops.lower), upper_(stops.upper), gaps_{arc.anchor() - lower_, upper_ - arc.anchor()} {}
 
   /// Exact if the arc is anchored on the stop.
@@ -29,8 +45,7 @@ class GapRule {
   [[nodiscard]] static Number signed_change(std::size_t i, const Number& y) { return i == upper ? Number(-y) : y; }
 
   [[nodiscard]] bool stays_clear(const Motion<Number>& here, const Number& time) const {
-    const Number far = reach(arc_.constants(), here, time), middle = arc_.constants().equilibrium;
-    return lower_ < middle - far && middle + far < upper_;
+    return stays_between(arc_, here, time, lower_, upper_);
   }
   /// Whether the distance of the stops is so small that products of lengths vanish.
   [[nodiscard]] bool vanishes() const {
@@ -73,7 +88,7 @@ class GapRule {
   }
   [[nodiscard]] Crossing<Number> at(std::size_t i, const Number& elapsed, Motion<Number> m) const {
     m.x = i == upper ? upper_ : lower_;
-    if (conserves()) m.v = closing(i, conserved_speed(m.x));
+    if (conserves_energy(arc_)) m.v = closing(i, conserved_speed(m.x));
     return {i, i == upper ? Side::upper : Side::lower, elapsed, m};
   }
   /// A contact within rounding of the horizon happens at it, so that it is neither lost nor taken twice.
@@ -93,11 +108,6 @@ class GapRule {
 
   [[nodiscard]] static Number closing(std::size_t i, const Number& y) { return i == upper ? y : Number(-y); }
 
-  /// Whether the energy of the flight is conserved.
-  [[nodiscard]] bool conserves() const {
-    if constexpr (E.stiffness) return arc_.constants().h == 0 && arc_.constants().f == 0;
-    return E.damping == Damping::none && E.forcing == Forcing::none;
-  }
   /// Speed at a position by the energy of free undamped motion (eq. 17): exact however softly the mass touches.
   [[nodiscard]] Number conserved_speed(const Number& x) const {
     using std::abs, std::max, std::sqrt;
@@ -110,15 +120,16 @@ class GapRule {
            sqrt(max(Number(0), Number((from.v / scale) * (from.v / scale) + (fall / scale) * (middle / scale))));
   }
 
-  const Arc<Number, E>& arc_;
+  const A& arc_;
   Number lower_, upper_;
   std::array<Number, count> gaps_;  ///< of the anchor
 };
 
 /// The first contact of an arc with a stop within a time `horizon` > 0.
-template <class Number, Effects E>
-[[nodiscard]] Crossing<Number> next_contact(const Arc<Number, E>& arc, const Stops& stops, const Number& horizon) {
-  return CrossingSearch<Number, E, GapRule<Number, E>>(arc, GapRule<Number, E>(arc, stops), horizon).run();
+template <class A>
+[[nodiscard]] Crossing<typename A::Number> next_contact(const A& arc, const Stops& stops,
+                                                        const typename A::Number& horizon) {
+  return CrossingSearch<A, GapRule<A>>(arc, GapRule<A>(arc, stops), horizon).run();
 }
 
 }  // namespace clatter::motion

@@ -9,27 +9,27 @@
 
 namespace clatter::motion {
 
-/// Bounds of the sixth and the seventh derivative of a displacement (eq. 14).
-template <class Number>
+/// Bounds of the sixth and the next derivatives of a displacement (eq. 14).
+template <class Number, std::size_t count = 2>
 struct DerivativeBounds {
-  std::array<Number, 2> free{};    ///< over the energy norm; of k > 0 only
-  std::array<Number, 2> forced{};  ///< of the force's part of the same derivatives, in secular motion from rest
+  std::array<Number, count> free{};    ///< over the energy norm; of k > 0 only
+  std::array<Number, count> forced{};  ///< of the force's part of the same derivatives, in secular motion from rest
 };
 
 /// By the recursion that eq. 3 is for its derivatives; `natural` is |k|^(1/2).
-template <class Number, Effects E>
-[[nodiscard]] DerivativeBounds<Number> derivative_bounds(const EquationOfMotion<Number, E>& equation,
-                                                         const Number& natural) {
+template <std::size_t count = 2, class Number, Effects E>
+[[nodiscard]] DerivativeBounds<Number, count> derivative_bounds(const EquationOfMotion<Number, E>& equation,
+                                                                const Number& natural) {
   using std::abs;
   const auto spring = [&](const Number& y) -> Number {
     if constexpr (E.stiffness) return equation.k * y;
     return y;
   };
-  DerivativeBounds<Number> bounds;
+  DerivativeBounds<Number, count> bounds;
   Number x_part = 1, v_part = 0;  // x^(order) = x_part x + v_part v + f Im(e^{i theta} (re + i im))
   Number re = 0, im = 0, next_re = 0, next_im = 0;
   Number power_re = 1, power_im = 0;  // (i nu)^order
-  for (std::size_t order = 0; order < 8; ++order) {
+  for (std::size_t order = 0; order < 6 + count; ++order) {
     Number per_energy = x_part;
     if constexpr (E.stiffness) per_energy = natural > 0 ? Number(x_part / natural) : Number(0);
     if (order >= 6) {

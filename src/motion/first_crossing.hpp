@@ -46,12 +46,14 @@ template <class Number>
 /// enclosure is below rounding. A margin that begins at 0 must increase, or the event happens at once.
 ///
 /// A rule says what the margins are, how wide enclosures may be, and what becomes of a crossing that was found:
-/// `GapRule` of rigid stops, `MarginRule` of all else. Margins that are `alike` differ by sign and constant alone, so
-/// that one enclosure does for all.
-template <class Number, Effects E, class Rule>
+/// `GapRule` of rigid stops and walls, `PullRule` of a wall that presses, `MarginRule` of all else. Margins that are
+/// `alike` differ by sign and constant alone, so that one enclosure does for all.
+template <class A, class Rule>
 class CrossingSearch {
  public:
-  CrossingSearch(const Arc<Number, E>& arc, const Rule& rule, const Number& horizon)
+  using Number = typename A::Number;
+
+  CrossingSearch(const A& arc, const Rule& rule, const Number& horizon)
       : arc_(arc), rule_(rule), horizon_(horizon), here_(arc.start()) {}
 
   [[nodiscard]] Crossing<Number> run() {
@@ -99,8 +101,10 @@ class CrossingSearch {
         continue;
       }
       if (first.fraction > 0) {
-        elapsed_ += first.fraction * step;
+        const Number passed = first.fraction * step;
+        elapsed_ += passed;
         here_ = evaluate(elapsed_);
+        if (passed > usual_length() / 1024) attempts = 0;  // it gets on
         if (falls(first.margin)) return refined(first.margin, Number(0));
       }
       step = rule_.next_step(first.margin, here_, step);
@@ -189,7 +193,7 @@ class CrossingSearch {
   }
   [[nodiscard]] Crossing<Number> unresolved() const { return {count, Side::none, elapsed_, here_, 0, false}; }
 
-  const Arc<Number, E>& arc_;
+  const A& arc_;
   Rule rule_;
   Number horizon_;
   Motion<Number> here_;  ///< no margin has fallen to 0 up to here
@@ -288,7 +292,7 @@ template <class Number, Effects E, std::size_t count>
 [[nodiscard]] Crossing<Number> first_crossing(const Arc<Number, E>& arc,
                                               const std::array<Margin<Number>, count>& margins, const Number& horizon) {
   const MarginRule<Number, E, count> rule(arc, margins);
-  return CrossingSearch<Number, E, MarginRule<Number, E, count>>(arc, rule, horizon).run();
+  return CrossingSearch<Arc<Number, E>, MarginRule<Number, E, count>>(arc, rule, horizon).run();
 }
 
 }  // namespace clatter::motion

@@ -6,6 +6,16 @@
 
 namespace clatter::motion {
 
+/// A loose mass in its housing. Once it has left a wall it counts from that, so that a flight that a section cuts keeps
+/// its digits; before, by its own displacement y, so that one which stands stays exactly there.
+template <class Number>
+struct LooseState {
+  Side wall = Side::none;  ///< the wall that it left last, or that presses it; none: it has met neither
+  Number place{};          ///< z less the place of that wall; without one y
+  Number speed{};          ///< z'; without such a wall y'
+  bool pressed = false;    ///< the wall presses it, so that it moves with the main mass
+};
+
 /// The state of a run. Time is a forcing phase and a whole number of periods, so that no growing tau stands inside a
 /// sine. Sections (stroboscopic sections) are the instants a whole number of forcing periods, without forcing of 2 pi,
 /// after the start.
@@ -22,6 +32,7 @@ struct State {
   Side within = Side::none;     ///< the soft stop beyond whose position the mass is; then also `from_stop`
   bool pressed = false;         ///< that stop pushes the mass; false: the mass outruns it
   bool chatters = false;        ///< flies in a chatter that is summed, so its impacts aren't told
+  LooseState<Number> loose{};   ///< of a loose mass, if there is one; `released`: its wall releases it
 };
 
 /// Motion at one instant of an arc.
@@ -45,6 +56,31 @@ struct Impact {
   double after;        ///< velocity after
   double position;     ///< of the stop
   double turns = 0.0;  ///< forcing periods since the section before it, 0 ... 1
+};
+
+/// An impact of a loose mass on a wall of its housing, as it is reported to observers.
+struct Strike {
+  double time;               ///< tau since observation began
+  Side side;                 ///< the wall that is hit
+  double before, after;      ///< z'
+  double wall;               ///< z
+  double v_before, v_after;  ///< velocity of the main mass
+  double place;              ///< displacement of the main mass
+  double turns = 0.0;        ///< forcing periods since the section before it, 0 ... 1
+
+  /// The same as an impact of the motion in the housing, and of that of the main mass.
+  [[nodiscard]] Impact in_housing() const { return {time, side, before, after, wall, turns}; }
+  [[nodiscard]] Impact of_main() const { return {time, side, v_before, v_after, place, turns}; }
+};
+
+/// A loose mass comes to rest on a wall, which presses it from here on, as it is reported to observers. The rest of its
+/// chatter is lost at once.
+struct Press {
+  double time;               ///< tau since observation began
+  Side side;                 ///< the wall
+  double speed;              ///< z' that is lost, within rounding of the motion
+  double v_before, v_after;  ///< velocity of the main mass
+  double place;              ///< displacement of the main mass
 };
 
 /// The beginning of a contact with a soft stop, as it is reported to observers.

@@ -13,11 +13,11 @@ namespace clatter::observables {
 /// An arc between shaken stops or on a shaken base as the ground sees it: x + b sin(theta), with derivatives and bounds
 /// of its own, so that whatever is proved of an arc is proved of it. Between rigid stops to the last bit, which the
 /// end of an arc meets only to rounding.
-template <Effects E>
+template <class A>
 class AbsoluteArc {
  public:
   /// Of an arc that begins a time `begin` after the motion of the frame does.
-  AbsoluteArc(const motion::Arc<double, E>& arc, const FrameMotion& frame, const Stops& stops, double begin)
+  AbsoluteArc(const A& arc, const FrameMotion& frame, const Stops& stops, double begin)
       : arc_(arc),
         frame_(frame),
         stops_(rigid_ones(stops)),
@@ -38,7 +38,7 @@ class AbsoluteArc {
   /// The relative motion's bound and that of the frame's sine; the free part of a motion is the same in both frames.
   [[nodiscard]] friend double sixth_bound(const AbsoluteArc& arc, const motion::Motion<double>& m, double span,
                                           int derivative) {
-    return motion::sixth_bound(arc.arc_.constants(), m, span, derivative) +
+    return sixth_bound(arc.arc_.constants(), m, span, derivative) +
            motion::times_sixth_power(arc.size(derivative), arc.frame_.frequency() * span);
   }
   /// Of the frame's displacement (order 0) or velocity (order 1): what the sum of the two motions may cancel.
@@ -62,7 +62,7 @@ class AbsoluteArc {
     return m;
   }
 
-  const motion::Arc<double, E>& arc_;
+  const A& arc_;
   const FrameMotion& frame_;
   Stops stops_;
   double begin_;

@@ -54,6 +54,14 @@ constexpr NamedVariable names[] = {
     {"stop_amplitude", {"amplitude of the stops", "$b$"}, Name{"", "stop_amplitude"}},
     {"base_amplitude", {"amplitude of the base", "$b$"}, Name{"", "base_amplitude"}},
     {"stop_phase", {"lead of the shaking", "$\\sigma$"}, Name{"", "stop_phase"}},
+    {"loose_mass", {"loose mass", "$\\varepsilon$"}, Name{"", "loose_mass"}},
+    {"loose_gap", {"walls of the loose mass", "$s$"}, Name{"", "loose_gap"}},
+    {"loose_lower", {"lower wall of the loose mass", "$z_-$"}, Name{"", "loose_lower"}},
+    {"loose_upper", {"upper wall of the loose mass", "$z_+$"}, Name{"", "loose_upper"}},
+    {"loose_R", {"restitution of the loose mass", "$R_z$"}, Name{"", "loose_R"}},
+    {"loose_load", {"acceleration of the loose mass", "$g$"}, Name{"", "loose_load"}},
+    {"loose_x0", {"initial place of the loose mass", "$z(0)$"}},
+    {"loose_v0", {"initial relative velocity of the loose mass", "$z$′$(0)$"}},
     {"x0", {"initial displacement", "$x(0)$"}},
     {"v0", {"initial velocity", "$x$′$(0)$"}},
     {"start_period", {"period", "$\\bar\\tau$"}},
@@ -66,6 +74,14 @@ constexpr NamedVariable names[] = {
     {"impact_phase", {"forcing phase of the impact", "$\\theta$"}},
     {"section_x", {"displacement", "$x$"}},
     {"section_v", {"velocity", "$x$′"}},
+    {"z", {"place in the housing", "$z$"}},
+    {"w", {"velocity in the housing", "$z$′"}},
+    {"section_z", {"place in the housing", "$z$"}},
+    {"section_w", {"velocity in the housing", "$z$′"}},
+    {"y_min", {"minimum", "$y_{\\min}$"}},
+    {"y_max", {"maximum", "$y_{\\max}$"}},
+    {"z_min", {"minimum", "$z_{\\min}$"}},
+    {"z_max", {"maximum", "$z_{\\max}$"}},
     {"x_min", {"minimum", "$x_{\\min}$"}},
     {"x_max", {"maximum", "$x_{\\max}$"}},
     {"v_min", {"minimum", "$x$′$_{\\min}$"}},
@@ -101,9 +117,23 @@ constexpr NamedVariable names[] = {
     {"impact_power", {"power lost in impacts", ""}},
 };
 
-const NamedVariable* find(std::string_view variable) {
-  const auto* const found = std::ranges::find(names, variable, &NamedVariable::variable);
-  return found == std::ranges::end(names) ? nullptr : found;
+/// Of the impacts of a loose mass.
+constexpr NamedVariable names_in_housing[] = {
+    {"impact_v_before", {"relative velocity before impact", "$z$′$^{{-}}$"}},
+    {"impact_v_before_absolute", {"velocity of the loose mass before impact", "$y$′$^{{-}}$"}},
+    {"v_before", {"relative velocity before impact", "$z$′$^{{-}}$"}},
+    {"v_after", {"relative velocity after impact", "$z$′$^{{+}}$"}},
+    {"velocity_ratio", {"velocity ratio", "$|z$′$^{{-}}/s|$"}, Name{"velocity ratio", "$|z$′$^{{-}}|$ / loose_gap"}},
+    {"rest_fraction", {"share of time pressed on the wall", ""}},
+};
+
+const NamedVariable* find(std::string_view variable, bool has_loose_mass) {
+  const auto of = [&](const auto& table) -> const NamedVariable* {
+    const auto* const found = std::ranges::find(table, variable, &NamedVariable::variable);
+    return found == std::ranges::end(table) ? nullptr : found;
+  };
+  const NamedVariable* const in_housing = has_loose_mass ? of(names_in_housing) : nullptr;
+  return in_housing != nullptr ? in_housing : of(names);
 }
 
 /// The result and the key of a derivative d_RESULT_d_KEY; both empty if it is none.
@@ -121,20 +151,21 @@ std::string symbol_of(std::string_view variable, bool is_si) {
 
 }  // namespace
 
-DrawnName drawn_name(std::string_view variable, bool is_si) {
+DrawnName drawn_name(std::string_view variable, bool is_si, bool has_loose_mass) {
   if (const auto [result, key] = parts_of_derivative(variable); !key.empty())
     return {"sensitivity", "∂" + symbol_of(result, is_si) + "/∂" + symbol_of(key, is_si)};
-  const NamedVariable* const found = find(variable);
+  const NamedVariable* const found = find(variable, has_loose_mass);
   if (found == nullptr) return {};
   const Name& name = is_si && found->in_si ? *found->in_si : found->name;
   return {std::string(name.words), std::string(name.symbol)};
 }
 
-std::string scene_names(bool is_si) {
+std::string scene_names(bool is_si, bool has_loose_mass) {
   std::string lines;
   for (const NamedVariable& named : names) {
     const auto parameter = Parameter::of(named.variable);
     if (!parameter || !parameter->is_in(is_si ? "machine" : "scene")) continue;
+    if (parameter->is_loose() && !has_loose_mass) continue;
     const auto put = [&](std::string_view name, std::string_view text) {  // no text has a quote
       lines.append(name).append(" = '").append(text).append("'");
     };

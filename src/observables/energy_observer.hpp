@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
 #include "observables/energy.hpp"
+#include "observables/loose_energy.hpp"
 #include "observables/quadrature.hpp"
 
 namespace clatter::observables {
@@ -15,10 +17,13 @@ namespace clatter::observables {
 class Energy::Observer {
  public:
   Observer(const Settings&, const ObservedSpan& span)
-      : oscillator_(span.scene.oscillator), stops_(span.scene.stops), phase_(span.scene.start.phase) {}
+      : oscillator_(span.scene.oscillator), stops_(span.scene.stops), phase_(span.scene.start.phase) {
+    if (has_loose_mass(span.scene.loose)) loose_.emplace(span);
+  }
 
   template <class A>
-  void arc(const A& arc, double, double length) {
+  void arc(const A& arc, double begins, double length) {
+    if (loose_) return loose_->arc(arc, begins, length);
     if (!(length > 0)) return;
     const motion::Motion<double>& first = arc.start();
     begin(first.x, first.v);
@@ -39,7 +44,19 @@ class Energy::Observer {
     impulse_[stop] += std::abs(impact.after - impact.before);
   }
 
+  template <class A>
+  void in_housing(const A& arc, double begins, double length) {
+    loose_->in_housing(arc, begins, length);
+  }
+  template <class A>
+  void hold(const A& arc, const motion::Rest& hold) {
+    loose_->hold(arc, hold);
+  }
+  void strike(const motion::Strike& strike) { loose_->strike(strike); }
+  void press(const motion::Press& press) { loose_->press(press); }
+
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
+    if (loose_) return with_loose_mass(span, x, v);
     begin(x, v);
     const double load_work = oscillator_.load * (x - x_begin_);  // of a period only that of rounding
     Values values{.work_in = force_work_ + (span.periodic ? 0.0 : load_work),
@@ -53,9 +70,19 @@ class Energy::Observer {
     values.impact_power = lost / span.total;
     return values;
   }
-  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
+  [[nodiscard]] double evaluations() const {  ///< of arcs
+    return loose_ ? loose_->evaluations() : evaluations_;
+  }
 
  private:
+  [[nodiscard]] Values with_loose_mass(const ObservedSpan& span, double x, double v) {
+    const LooseEnergy::Ledger ledger = loose_->finish(x, v);
+    Values values{.work_in = ledger.work, .loss_damping = ledger.damped, .loss_friction = 0.0};
+    values.loss_impact = ledger.lost, values.impulse = ledger.impulse;
+    values.energy_residual = ledger.residual();
+    values.impact_power = (ledger.lost[0] + ledger.lost[1]) / span.total;
+    return values;
+  }
   /// The state in which the observed time begins: the first that is seen.
   void begin(double x, double v) {
     if (!has_begun_) x_begin_ = x, v_begin_ = v, has_begun_ = true;
@@ -149,6 +176,7 @@ class Energy::Observer {
   double force_work_ = 0, loss_damping_ = 0, loss_friction_ = 0;
   std::array<double, 2> loss_impact_{}, impulse_{};  ///< [stop]
   double evaluations_ = 0;
+  std::optional<LooseEnergy> loose_{};  ///< with a loose mass, in place of all others
 };
 
 }  // namespace clatter::observables

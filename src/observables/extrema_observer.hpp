@@ -8,6 +8,7 @@
 #include "motion/polynomial_arc.hpp"
 #include "observables/absolute_arc.hpp"
 #include "observables/extrema.hpp"
+#include "observables/loose_arc.hpp"
 #include "observables/range_search.hpp"
 #include "scene/response.hpp"
 #include "scene/stops.hpp"
@@ -59,6 +60,27 @@ class Extrema::Observer {
     x_.include(impact.position), v_.include(impact.before), v_.include(impact.after);
   }
 
+  void strike(const motion::Strike& strike) {
+    if (absolute_ == nullptr) v_.include(strike.v_before), v_.include(strike.v_after);
+    z_.include(strike.wall);
+  }
+  template <Effects E>
+  void in_housing(const motion::RelativeArc<double, E>& arc, double begin, double length) {
+    if (!(length > 0)) return;
+    look_at_place(z_, arc, length);
+    const LooseArc loose(arc);
+    if (absolute_ == nullptr) return look_at_place(y_, loose, length);
+    look_at_place(y_, AbsoluteArc(loose, *absolute_->frame, Stops{}, begin), length);
+  }
+  /// While a wall presses it, a loose mass moves with the main mass.
+  template <Effects E>
+  void hold(const motion::Arc<double, E>& arc, const motion::Rest& hold) {
+    z_.include(hold.position);
+    if (!(hold.length > 0)) return;
+    if (absolute_ == nullptr) return look_at_place(y_, arc, hold.length, hold.position);
+    look_at_place(y_, AbsoluteArc(arc, *absolute_->frame, Stops{}, hold.time), hold.length, hold.position);
+  }
+
   /// Cut at the stops, which the end of an arc meets only to rounding, or by time stepping to the length of a step.
   [[nodiscard]] Range displacement(const Stops& stops) const {
     const double moved = absolute_ != nullptr ? absolute_->frame->amplitude() : 0.0;
@@ -68,7 +90,16 @@ class Extrema::Observer {
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
     if (absolute_ != nullptr) include_end(x, v);
     const Range range = displacement(rigid_ones(span.scene.stops));
-    return {range.low, range.high, v_.low, v_.high};
+    if (!has_loose_mass(span.scene.loose)) return {range.low, range.high, v_.low, v_.high};
+    const LooseMass& loose = span.scene.loose;
+    return {range.low,
+            range.high,
+            v_.low,
+            v_.high,
+            y_.low,
+            y_.high,
+            std::max(z_.low, loose.lower),
+            std::min(z_.high, loose.upper)};
   }
   [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
@@ -79,6 +110,15 @@ class Extrema::Observer {
     RangeSearch search(arc, length, see);
     search.exceed(DisplacementOnArc{}, x_);
     search.exceed(VelocityOnArc{}, v_);
+    evaluations_ += search.evaluations();
+  }
+  /// Of displacements alone, of something that is `apart` from that which moves along the arc.
+  template <class A>
+  void look_at_place(Range& range, const A& arc, double length, double apart = 0.0) {
+    Range on_arc{range.low - apart, range.high - apart};
+    const auto see = [&](const motion::Motion<double>& m) { on_arc.include(m.x), range.include(m.x + apart); };
+    RangeSearch search(arc, length, see);
+    search.exceed(DisplacementOnArc{}, on_arc);
     evaluations_ += search.evaluations();
   }
 
@@ -150,6 +190,7 @@ class Extrema::Observer {
 
   const ObservedSpan* absolute_ = nullptr;  ///< if the absolute motion is observed
   Range x_, v_;
+  Range y_, z_;  ///< of a loose mass
   double evaluations_ = 0.0;
 };
 

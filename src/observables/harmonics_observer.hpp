@@ -32,6 +32,7 @@ class Harmonics::Observer {
   void impact(const motion::Impact& impact) {
     by([&](auto& observer) { observer.impact(impact); });
   }
+  void strike(const motion::Strike& strike) { impact(strike.of_main()); }
   /// Exact harmonics know the response; samples have to be taken from its course.
   bool response(const ObservedSpan& span, double x) {
     if (exact_) exact_->response(span.scene.oscillator, span.scene.start.phase, x, span.total);

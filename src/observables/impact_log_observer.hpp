@@ -41,6 +41,11 @@ class ImpactLog::Observer {
     if (!values_.log.empty() && values_.log.back().side == separation.side && std::isnan(values_.log.back().after))
       values_.log.back().after = separation.velocity;
   }
+  /// Of a loose mass z' is logged, and the velocity y' as seen from the ground, on which its motion is computed.
+  void strike(const motion::Strike& strike) {
+    log(strike.in_housing(), strike.before, strike.after);
+    values_.log.back().absolute = strike.v_before + strike.before;
+  }
   /// The response meets no stop.
   bool response(const ObservedSpan&, double) { return true; }
 

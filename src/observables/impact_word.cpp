@@ -107,6 +107,10 @@ bool ImpactWord::Observer::is_mirrored(const ObservedSpan& span, double x, doubl
   if (fastest == contacts_.end() || fastest->before == 0) {
     const double centre = mirror_centre(span.scene).value_or(0.0);
     const PhasePoint later = halfway_.value_or(PhasePoint{x, v});  // it stands still
+    if (const LooseMass& loose = span.scene.loose; has_loose_mass(loose)) {
+      const double width = loose.upper - loose.lower, off = last_z_ + halfway_z_ - (loose.lower + loose.upper);
+      if (!(std::abs(off) <= same * width)) return false;
+    }
     return std::abs((x - centre) + (later.x - centre)) + std::abs(v + later.v) <=
            same * (std::abs(x - centre) + std::abs(v));
   }

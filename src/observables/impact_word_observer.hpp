@@ -29,6 +29,17 @@ class ImpactWord::Observer {
   void touch(const motion::Touch& touch) {
     if (touch.from_outside) see(touch.time, touch.side, touch.velocity);
   }
+  /// The walls of a loose mass have the letters of stops.
+  void strike(const motion::Strike& strike) { see(strike.time, strike.side, strike.before); }
+  template <class A>
+  void hold(const A&, const motion::Rest& hold) {
+    see(hold.time, hold.side, 0.0);
+    place(hold.time, hold.length, [&](double) { return hold.position; });
+  }
+  template <class A>
+  void in_housing(const A& arc, double begin, double length) {
+    place(begin, length, [&](double s) { return arc.at(s).x; });
+  }
   /// The response has no impacts, and turns into its mirror whenever the force does.
   bool response(const ObservedSpan&, double) {
     is_response_ = true;
@@ -42,6 +53,13 @@ class ImpactWord::Observer {
   static constexpr double same_instant = 1e-12;
   static constexpr double same = 1e-6;  ///< relative difference of what counts as the mirror image
 
+  /// Keeps the place of a loose mass halfway, and where it was seen last.
+  template <class At>
+  void place(double begin, double length, const At& at) {
+    if (!periodic_) return;
+    if (begin <= half_ && half_ <= begin + length) halfway_z_ = at(half_ - begin);
+    last_z_ = at(length);
+  }
   /// One that a section cuts is one stick.
   void stick(const motion::Rest& rest) {
     if (rest.time <= half_ && half_ <= rest.time + rest.length) halfway_ = {rest.position, 0.0};
@@ -57,11 +75,12 @@ class ImpactWord::Observer {
   [[nodiscard]] bool is_mirrored(const ObservedSpan& span, double x, double v) const;
 
   bool periodic_, shows_sticks_;
-  double stuck_until_ = -1.0;            ///< end of the last stick, tau
-  double half_;                          ///< of the period, in tau
-  std::vector<Contact> contacts_{};      ///< in order
-  std::optional<PhasePoint> halfway_{};  ///< half a period after its beginning, in flight
-  bool is_response_ = false;             ///< the steady response without impacts
+  double stuck_until_ = -1.0;              ///< end of the last stick, tau
+  double half_;                            ///< of the period, in tau
+  std::vector<Contact> contacts_{};        ///< in order
+  std::optional<PhasePoint> halfway_{};    ///< half a period after its beginning, in flight
+  bool is_response_ = false;               ///< the steady response without impacts
+  double halfway_z_ = 0.0, last_z_ = 0.0;  ///< of a loose mass: its place half a period after the beginning, and last
 };
 
 }  // namespace clatter::observables

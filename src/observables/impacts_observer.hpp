@@ -45,6 +45,12 @@ class Impacts::Observer {
   }
   /// Takes over what was counted elsewhere, in motion that never rests.
   void include(const std::array<OfStop, 2>& stops) { stops_ = stops; }
+  /// The walls of a loose mass count like stops, with z' in place of the velocity.
+  void strike(const motion::Strike& strike) { impact(strike.in_housing()); }
+  template <class A>
+  void hold(const A&, const motion::Rest& hold) {
+    rest(hold);
+  }
   /// The response meets no stop.
   bool response(const ObservedSpan&, double) { return true; }
 

@@ -108,6 +108,33 @@ class Observers<ObservableList<Os...>> {
     });
   }
 
+  /// A loose mass in its housing, for those that ask for it: its flight while the main mass moves along an arc that has
+  /// just been shown, its impacts on walls, and the times in which a wall presses it, along such an arc, too. An impact
+  /// at the very beginning belongs to the time before.
+  template <class A>
+  void in_housing(const A& arc, double begin, double length) {
+    present([&](auto& observer) {
+      if constexpr (requires { observer.in_housing(arc, begin, length); }) observer.in_housing(arc, begin, length);
+    });
+  }
+  void strike(const motion::Strike& strike) {
+    if (!(strike.time > 0.0)) return;
+    present([&](auto& observer) {
+      if constexpr (requires { observer.strike(strike); }) observer.strike(strike);
+    });
+  }
+  void press(const motion::Press& press) {
+    present([&](auto& observer) {
+      if constexpr (requires { observer.press(press); }) observer.press(press);
+    });
+  }
+  template <class A>
+  void hold(const A& arc, const motion::Rest& hold) {
+    present([&](auto& observer) {
+      if constexpr (requires { observer.hold(arc, hold); }) observer.hold(arc, hold);
+    });
+  }
+
   /// The velocity of a slip passes 0, for those that ask for it.
   void reversal(const motion::Reversal& reversal) {
     present([&](auto& observer) {

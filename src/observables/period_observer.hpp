@@ -23,6 +23,7 @@ class Period::Observer {
   void touch(const motion::Touch& touch) {
     if (!(first_speed_ >= 0.0)) first_speed_ = std::abs(touch.velocity);
   }
+  void strike(const motion::Strike& strike) { impact(strike.in_housing()); }
   /// Takes over the speed before the first impact, NaN if there is none, of motion that isn't at rest throughout.
   void include(double first_speed) { first_speed_ = first_speed, moves_ = true; }
   bool response(const ObservedSpan&, double) { return include(no_value), true; }
@@ -31,6 +32,8 @@ class Period::Observer {
     Values values;
     const Stops& stops = span.scene.stops;
     if (stops.lower == -stops.upper) values.velocity_ratio = first_speed_ / stops.upper;
+    if (const LooseMass& loose = span.scene.loose; has_loose_mass(loose))
+      values.velocity_ratio = loose.lower == -loose.upper ? first_speed_ / loose.upper : no_value;
     if (!span.periodic && !span.transient && !span.undecided) values.period_ratio = 0.0;
     if (!span.periodic || span.stands_still || !moves_) return values;
     values.period = span.total;

@@ -25,10 +25,17 @@ std::vector<Column<Section::Values>> Section::columns(const Settings& settings) 
                           [member](const Values& v) -> const std::vector<double>& { return v.*member; });
   };
   constexpr std::string_view fewer = "the motion has fewer such states: one for each forcing period of its period";
-  return {missing_if(fewer, in_observed_frame(of("section_x", "displacement in successive periods", &Values::section_x,
-                                                 Quantity::length))),
-          missing_if(fewer, in_observed_frame(of("section_v", "velocity in successive periods", &Values::section_v,
-                                                 Quantity::velocity)))};
+  std::vector<Column<Values>> all{
+      missing_if(fewer, in_observed_frame(of("section_x", "displacement in successive periods", &Values::section_x,
+                                             Quantity::length))),
+      missing_if(fewer, in_observed_frame(of("section_v", "velocity in successive periods", &Values::section_v,
+                                             Quantity::velocity)))};
+  if (!settings.loose_section) return all;
+  all.push_back(missing_if(
+      fewer, of("section_z", "place of the loose mass in successive periods", &Values::section_z, Quantity::length)));
+  all.push_back(missing_if(fewer, of("section_w", "relative velocity of the loose mass in successive periods",
+                                     &Values::section_w, Quantity::velocity)));
+  return all;
 }
 
 }  // namespace clatter::observables

@@ -17,9 +17,11 @@ struct Section {
   struct Settings {
     std::int64_t section = 0;    ///< states; 0: none
     double section_phase = 0.0;  ///< of the force, rad
+    bool loose_section = false;  ///< with it: that of a loose mass
   };
   struct Values {
     std::vector<double> section_x{}, section_v{};  ///< shape [section]
+    std::vector<double> section_z{}, section_w{};  ///< shape [section]: place of a loose mass in its housing, and z'
   };
   static constexpr std::string_view observed = "[scene]\nf = 1\n\n[observe]\nsection = 500\n";
   static constexpr std::tuple fields{
@@ -42,7 +44,7 @@ struct Section {
   }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings);
   [[nodiscard]] static double values_held(const Settings& settings) {
-    return 2 * static_cast<double>(settings.section);
+    return (settings.loose_section ? 4 : 2) * static_cast<double>(settings.section);
   }
   /// Lanes report their states at the forcing phase of the start, and follow no motion beyond the observed time.
   [[nodiscard]] static bool in_lanes(const Settings& settings, const ObservedSpan& span);

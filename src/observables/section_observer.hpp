@@ -9,6 +9,7 @@
 
 #include "math/number.hpp"
 #include "observables/bracketed_root.hpp"
+#include "observables/housing_samples.hpp"
 #include "observables/samples.hpp"
 #include "observables/section.hpp"
 #include "scene/displacement_bound.hpp"
@@ -29,6 +30,8 @@ class Section::Observer {
       most_ = std::min(most_, static_cast<std::size_t>(std::max(0.0, std::ceil(span.turns - turns))));
     phase_ = span.scene.start.phase + 2 * pi<double>() * turns;
     samples_.emplace(most_, period_of(span.scene.oscillator), AtImpact::after, span.scene.stops, turns);
+    if (has_loose_mass(span.scene.loose))
+      loose_.emplace(most_, period_of(span.scene.oscillator), AtImpact::after, span.scene.loose, turns);
   }
 
   template <class A>
@@ -43,6 +46,18 @@ class Section::Observer {
   void impact(const motion::Impact& impact) {
     if (samples_) return samples_->impact(impact);
     bounced_ = true;
+  }
+  template <class A>
+  void in_housing(const A& arc, double begin, double length) {
+    if (loose_) loose_->in_housing(arc, begin, length);
+  }
+  template <class A>
+  void hold(const A&, const motion::Rest& hold) {
+    if (loose_) loose_->hold(hold);
+  }
+  void strike(const motion::Strike& strike) {
+    impact(strike.of_main());
+    if (loose_) loose_->strike(strike);
   }
   /// Takes the state of the steady response, whose period is that of the force.
   bool response(const ObservedSpan& span, double) {
@@ -64,6 +79,10 @@ class Section::Observer {
     if (samples_) {
       samples_->finish(x, v, span.total, span.periodic);
       values_ = {std::move(samples_->displacement()), std::move(samples_->velocity())};
+    }
+    if (loose_) {
+      loose_->finish(span.total, span.periodic);
+      values_.section_z = std::move(loose_->place()), values_.section_w = std::move(loose_->velocity());
     }
     if (span.frame) add(*span.frame);
     return std::move(values_);
@@ -127,8 +146,9 @@ class Section::Observer {
   bool periodic_, is_absolute_;
   double total_;
   std::size_t most_;
-  double phase_ = 0.0;                ///< of the force
-  std::optional<Samples> samples_{};  ///< under a force
+  double phase_ = 0.0;                     ///< of the force
+  std::optional<Samples> samples_{};       ///< under a force
+  std::optional<HousingSamples> loose_{};  ///< under a force, of a loose mass
   Values values_{};
   std::vector<double> times_{};  ///< of passages without a force, tau
   bool bounced_ = false;         ///< the arc begins with an impact

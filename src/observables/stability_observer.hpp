@@ -5,9 +5,11 @@
 #include <numbers>
 #include <optional>
 
+#include "motion/loose_tangent.hpp"
 #include "motion/neighbourhood.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "motion/tangent_map.hpp"
+#include "observables/multipliers.hpp"
 #include "observables/rough_grazes.hpp"
 #include "observables/stability.hpp"
 
@@ -19,6 +21,8 @@ class Stability::Observer {
 
   Observer(const Settings&, const ObservedSpan& span) : Observer(span.scene.stops, span.uncertainty) {
     if (has_friction(span.scene.friction)) graze_matters_ = false, rough_.emplace(span.scene, span.uncertainty);
+    if (has_loose_mass(span.scene.loose))
+      graze_matters_ = false, loose_.emplace(span.scene.oscillator, span.scene.loose), rounding_ = span.uncertainty;
   }
 
   /// `rounding` bounds the errors of displacements and velocities.
@@ -29,8 +33,9 @@ class Stability::Observer {
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
-    tangent_.arc(arc, begin, length);
     ++evaluations_;
+    if (loose_) return loose_->arc(arc, begin, length);
+    tangent_.arc(arc, begin, length);
     if constexpr (motion::Polynomial<A>) {
       graze_matters_ = false, rough_.reset();
     } else {
@@ -52,12 +57,23 @@ class Stability::Observer {
     if (rough_) rough_->impact(impact);
   }
   void touch(const motion::Touch& touch) { tangent_.touch(touch); }
+  /// A loose mass that strikes a wall so slowly that it would turn back within rounding of it.
+  void strike(const motion::Strike& strike) {
+    loose_->strike(strike);
+    slow_ = slow_ || strike.before * strike.before <= 2 * std::abs(turning_) * rounding_;
+  }
+  template <class A>
+  void in_housing(const A& arc, double, double length) {
+    turning_ = arc.at(length).a;
+  }
+  /// Its chatter, whose impacts are as slow as they like, is forgotten.
+  void press(const motion::Press& press) { loose_->press(press), slow_ = false; }
 
   /// True if motions that differ from this one by rounding meet other stops. After a rest no difference is left; and
   /// motion by general methods isn't known to rounding. A graze of a soft stop changes little, and beside one those of
   /// a rigid stop aren't told. Under dry friction the least speeds and distances tell them.
   [[nodiscard]] bool grazes() const {
-    return !rests_ && ((graze_matters_ && !nearby_.holds()) || (rough_ && rough_->found()));
+    return !rests_ && ((graze_matters_ && !nearby_.holds()) || (rough_ && rough_->found()) || slow_);
   }
 
   /// Ends the observed time, one period. Unforced motion (`autonomous`) is periodic only when it loses nothing; a shift
@@ -84,12 +100,15 @@ class Stability::Observer {
   void finish_window(double total) { exponent_ = tangent_.log_norm() / total; }
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double, double) {
+    if (loose_) return of_loose_mass(span);
     if (span.periodic) {
       finish_period(span.total, span.scene.oscillator.forcing == 0 && !span.stands_still);
     } else {
       finish_window(span.total);
     }
-    return {{first_.real(), second_.real()}, {first_.imag(), second_.imag()}, exponent_};
+    return {{first_.real(), second_.real(), no_value, no_value},
+            {first_.imag(), second_.imag(), no_value, no_value},
+            exponent_};
   }
 
   [[nodiscard]] const Complex& first() const { return first_; }    ///< the larger multiplier; NaN without a period
@@ -98,9 +117,28 @@ class Stability::Observer {
   [[nodiscard]] double evaluations() const { return evaluations_; }
 
  private:
+  /// The four multipliers of a motion with a loose mass.
+  [[nodiscard]] Values of_loose_mass(const ObservedSpan& span) const {
+    Values values;
+    const double power = loose_->exponent();
+    if (!span.periodic) values.lyapunov = (log_norm(loose_->mantissa()) + power * std::numbers::ln2) / span.total;
+    if (!span.periodic || grazes()) return values;
+    auto all = multipliers_of(loose_->mantissa());
+    if (loose_->has_pressed()) all[2] = all[3] = 0.0;  // but for rounding
+    values.lyapunov = (std::log(std::abs(all[0])) + power * std::numbers::ln2) / span.total;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      values.multiplier_re[i] = motion::TangentMap<double>::scaled(all[i].real(), power) + 0.0;  // no negative zero
+      values.multiplier_im[i] = motion::TangentMap<double>::scaled(all[i].imag(), power) + 0.0;
+    }
+    return values;
+  }
+
   motion::TangentMap<double> tangent_;
   motion::Neighbourhood nearby_;
-  std::optional<RoughGrazes> rough_{};  ///< under dry friction, in place of `nearby_`
+  std::optional<RoughGrazes> rough_{};           ///< under dry friction, in place of `nearby_`
+  std::optional<motion::LooseTangent> loose_{};  ///< with a loose mass, in place of `tangent_`
+  double rounding_ = 0.0, turning_ = 0.0;        ///< with a loose mass: of displacements; z'' at the end of its flight
+  bool slow_ = false;                            ///< it has struck a wall within rounding
   bool graze_matters_, rests_ = false;
   Complex first_{no_value, no_value}, second_{no_value, no_value};
   double exponent_ = no_value;

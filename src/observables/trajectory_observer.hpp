@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 
+#include "observables/housing_samples.hpp"
 #include "observables/samples.hpp"
 #include "observables/trajectory.hpp"
 
@@ -11,7 +13,11 @@ class Trajectory::Observer {
  public:
   Observer(const Settings& settings, const ObservedSpan& span)
       : samples_(count_of(settings), span.total / static_cast<double>(settings.trajectory - 1), AtImpact::after,
-                 span.scene.stops) {}
+                 span.scene.stops) {
+    if (has_loose_mass(span.scene.loose))
+      loose_.emplace(count_of(settings), span.total / static_cast<double>(settings.trajectory - 1), AtImpact::after,
+                     span.scene.loose);
+  }
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -19,16 +25,31 @@ class Trajectory::Observer {
   }
   void rest(const motion::Rest& rest) { samples_.rest(rest); }
   void impact(const motion::Impact& impact) { samples_.impact(impact); }
+  template <class A>
+  void in_housing(const A& arc, double begin, double length) {
+    loose_->in_housing(arc, begin, length);
+  }
+  template <class A>
+  void hold(const A&, const motion::Rest& hold) {
+    loose_->hold(hold);
+  }
+  void strike(const motion::Strike& strike) { samples_.impact(strike.of_main()), loose_->strike(strike); }
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
     samples_.finish(x, v, span.total, span.periodic);
     if (span.frame) samples_.add(*span.frame);
-    return {samples_.times(span.total), std::move(samples_.displacement()), std::move(samples_.velocity())};
+    Values values{samples_.times(span.total), std::move(samples_.displacement()), std::move(samples_.velocity())};
+    if (loose_) {
+      loose_->finish(span.total, span.periodic);
+      values.z = std::move(loose_->place()), values.w = std::move(loose_->velocity());
+    }
+    return values;
   }
   [[nodiscard]] double evaluations() const { return samples_.evaluations(); }  ///< of arcs
 
  private:
   Samples samples_;
+  std::optional<HousingSamples> loose_{};  ///< of a loose mass
 };
 
 }  // namespace clatter::observables

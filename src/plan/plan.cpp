@@ -86,12 +86,12 @@ void warn(const sweep::Sweep& sweep, const Survey& survey, Plan& plan) {
 
 std::string effect_set_name(const Effects& effects) {
   const Effects& set = compiled_effects[effect_set_of(effects)];
-  std::string name = set.stiffness                   ? "any spring"
+  std::string name = set.stiffness && !set.loose     ? "any spring"
                      : set.damping == Damping::none  ? "no damping"
                      : set.damping == Damping::light ? "light damping"
                                                      : "heavy damping";
   if (set.forcing != Forcing::none) name += set.forcing == Forcing::regular ? ", forcing" : ", resonant forcing";
-  name += set.stops() ? ", impacts" : ", no stops";
+  name += set.loose ? ", loose mass" : set.stops() ? ", impacts" : ", no stops";
   if (set.friction) name += ", friction";
   return name;
 }

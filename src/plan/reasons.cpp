@@ -69,9 +69,10 @@ Reason shaking_reason(const point::Problem& scene) {
   const bool stops = scene.shaking.stops != 0;
   const std::string key =
       stops ? "stop_amplitude = " + text(scene.shaking.stops) : "base_amplitude = " + text(scene.shaking.base);
-  return {"shaking", true,
-          key + ": in the frame of the " + (stops ? "stops" : "base") + " the force f above, its phase " +
-              text(scene.shaking.lead) + " ahead"};
+  const std::string frame = has_loose_mass(scene.loose) ? "as the ground sees it"
+                            : stops                     ? "in the frame of the stops"
+                                                        : "in the frame of the base";
+  return {"shaking", true, key + ": " + frame + " the force f above, its phase " + text(scene.shaking.lead) + " ahead"};
 }
 
 Reason resonance_reason(const Oscillator& oscillator) {
@@ -160,6 +161,26 @@ Reason friction_reason(const point::Problem& scene) {
   return {"friction", true, why};
 }
 
+/// A loose mass, and whether it is proved to stay clear of its walls: with y' = 0 for all time, since any drift strikes
+/// in the end.
+Reason loose_reason(const point::Problem& scene) {
+  const LooseMass& loose = scene.loose;
+  const Oscillator& o = scene.oscillator;
+  std::string why = "loose_mass = " + text(loose.ratio) + ", walls at " + text(loose.lower) + " and " +
+                    text(loose.upper) + ", R = " + text(loose.restitution);
+  const double middle = equilibrium_of(o), y = scene.start.displacement + loose.place - middle;
+  if (loose.load == 0 && scene.start.velocity + loose.velocity == 0) {
+    const PhaseState start{scene.start.displacement - middle, scene.start.velocity, std::sin(scene.start.phase),
+                           std::cos(scene.start.phase)};
+    const double reach = displacement_bound(o, start, duration_of(scene.time), 0.0),
+                 gap = std::fmin(loose.upper - y, y - loose.lower);
+    if (reach < gap)
+      why += "; it stands, and " + displacement(scene) + " <= " + compared(reach, " < ", gap) + ' ' +
+             duration_text(scene) + ": its walls are out of reach";
+  }
+  return {"loose mass", true, why};
+}
+
 Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
   const std::string effect = "chatter and rest";
   if (!needs.effects.stops()) return {effect, false, "no stop in reach"};
@@ -203,10 +224,13 @@ Effects kept_in(Effects effects, const std::string& effect) {
 
 std::vector<Reason> reasons_of(const point::Problem& scene) {
   const Requirements needs = requirements_of(scene, duration_of(scene.time));
-  std::vector<Reason> reasons{damping_reason(scene.oscillator),         forcing_reason(scene.oscillator),
-                              resonance_reason(scene.oscillator),       load_reason(scene.oscillator),
-                              stop_reason(scene, needs, false),         stop_reason(scene, needs, true),
-                              dissipation_reason(scene, needs.effects), rest_reason(scene, needs)};
+  std::vector<Reason> reasons{damping_reason(scene.oscillator), forcing_reason(scene.oscillator),
+                              resonance_reason(scene.oscillator), load_reason(scene.oscillator)};
+  if (needs.effects.loose)
+    reasons.push_back(loose_reason(scene));
+  else
+    reasons.insert(reasons.end(), {stop_reason(scene, needs, false), stop_reason(scene, needs, true),
+                                   dissipation_reason(scene, needs.effects), rest_reason(scene, needs)});
   if (scene.oscillator.stiffness != 1 || scene.units != Units{}) reasons.push_back(stiffness_reason(scene));
   if (has_soft_stop(scene.stops)) reasons.push_back(soft_reason(scene, needs.effects));
   if (needs.effects.friction) reasons.push_back(friction_reason(scene));

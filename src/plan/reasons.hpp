@@ -16,7 +16,8 @@ struct Reason {
   Bounds saving{};  ///< share of the time, if it is left out; 0 if the compiled set of the scene has it all the same
 };
 
-/// Every effect of a scene: damping, forcing, resonance, load, lower stop, upper stop, dissipation, chatter and rest.
+/// Every effect of a scene: damping, forcing, resonance, load, lower stop, upper stop, dissipation, chatter and rest;
+/// of one with a loose mass that in place of the last four.
 [[nodiscard]] std::vector<Reason> reasons_of(const point::Problem& scene);
 
 }  // namespace clatter::plan

@@ -31,14 +31,15 @@ bool comes_to_its_end(const point::Problem& scene, double time) {
 
 /// Forcing periods of a point. If nothing is proved, at best one to settle and one observed; at worst all of
 /// max_periods, those of the attempts to find the periodic motion, and the window. General methods make no such
-/// attempt, nor is one made under friction, which proves nothing but that a mass stays where it is.
+/// attempt, nor is one made under friction, which proves nothing but that a mass stays where it is, nor with a loose
+/// mass.
 Bounds periods_of(const point::Problem& scene, const Effects& effects) {
   const steady::TimeSettings& time = scene.time;
   const Oscillator& o = scene.oscillator;
   const double longest = static_cast<double>(time.max_periods), period = period_of(o);
   if (time.mode == steady::Mode::transient) return {time.duration / period, time.duration / period};
   if (never_moves(scene)) return {1, 1};
-  if (effects.friction) return {2, longest + static_cast<double>(time.window)};
+  if (effects.friction || effects.loose) return {2, longest + static_cast<double>(time.window)};
   if (scene.integration.all_effects) {
     const double least = static_cast<double>(steady::last_look(o, time.max_periods));
     return {std::max(1.0, least) + 1, longest + static_cast<double>(time.window)};
@@ -92,9 +93,9 @@ void examine(const sweep::Sweep& sweep, const Sample::Draw& draw, bool lanes_run
   const bool in_lanes = lanes_run && lanes::accepts({0, 0, scene, effects});
   survey.add({effects, draw.weight, example, periods, in_lanes ? Bounds{} : work, in_lanes ? work : Bounds{}});
   survey.lower.add({needs.effects.lower, to_lower}), survey.upper.add({needs.effects.upper, to_upper});
-  survey.lasting =
-      survey.lasting || (scene.time.mode == steady::Mode::steady && scene.oscillator.forcing != 0 &&
-                         scene.oscillator.damping == 0 && !needs.effects.dissipation && !needs.effects.friction);
+  survey.lasting = survey.lasting || (scene.time.mode == steady::Mode::steady && scene.oscillator.forcing != 0 &&
+                                      scene.oscillator.damping == 0 && !needs.effects.dissipation &&
+                                      !needs.effects.friction && !(needs.effects.loose && scene.loose.restitution < 1));
 }
 
 /// Examines points on several threads, in blocks that are the same for every number of threads, and so are the sums.
@@ -130,7 +131,7 @@ class Surveyor {
 double work_of_period(const point::Problem& scene, const Effects& effects) {
   if (scene.integration.method != stepping::Method::exact) return 1;
   const double step = motion::usual_step(natural_frequency(scene.oscillator), counting_frequency(scene.oscillator));
-  return effects.stops() ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
+  return effects.stops() || effects.loose ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
 }
 
 point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point) {

@@ -73,12 +73,12 @@ double ExactPoints<E>::seconds_per_evaluation() {
   if (E.stops()) problem.stops = {-0.5, 0.5, 0.7, 0.7};
   if (E.soft) problem.stops.stiffness_lower = problem.stops.stiffness_upper = 100.0;
   if (E.friction) problem.friction = {0.1, 0.1};
+  if (E.loose) problem.loose = {.ratio = 0.05, .lower = -0.5, .upper = 0.5, .restitution = 0.7, .velocity = 0.3};
   using Clock = std::chrono::steady_clock;
   double least = std::numeric_limits<double>::infinity();
   for (int repetition = 0; repetition < 3; ++repetition) {
     stepping::Exact<double, E> integrator(problem);
-    motion::State<double> state;
-    state.v = problem.start.velocity;
+    motion::State<double> state = start_of(problem);
     steady::PassageObserver watch(problem.stops);
     const auto begin = Clock::now();
     (void)run_for(integrator, state, 50.0, watch);

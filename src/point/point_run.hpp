@@ -18,6 +18,7 @@ using Observers = observables::Observers<observables::All>;
 [[nodiscard]] inline motion::State<double> start_of(const Scene& scene) {
   motion::State<double> state;
   state.x = scene.start.displacement, state.v = scene.start.velocity;
+  if (has_loose_mass(scene.loose)) state.loose = motion::loose_start<double>(scene);
   return state;
 }
 
@@ -82,7 +83,7 @@ class Point {
     if (problem_.observe.settling && problem_.oscillator.forcing != 0)
       result_.settling_periods =
           settling_periods(integrator_, start(), observed_, problem_.time, observables::Settling::settled,
-                           factor_of(problem_.units, Quantity::velocity));
+                           factor_of(problem_.units, Quantity::velocity), problem_.loose);
     steady::ObservedTime complete = observed_;
     if (span_.periodic && problem_.oscillator.forcing != 0 && grazing_is_told(observers))
       complete.status = steady::Status::grazing;
@@ -159,7 +160,7 @@ class Point {
   /// How far displacements and velocities may be off: by rounding, and after a repeat by its tolerance.
   [[nodiscard]] double uncertainty() const {
     double size = std::abs(observed_.from.x) + std::abs(observed_.from.v);
-    for (const double stop : {problem_.stops.lower, problem_.stops.upper})
+    for (const double stop : {problem_.stops.lower, problem_.stops.upper, problem_.loose.lower, problem_.loose.upper})
       if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
     const double tolerance = observed_.found_by == steady::FoundBy::repetition ? problem_.time.tolerance : 0.0;
     return (64 * epsilon<double>() + tolerance) * size;

@@ -27,11 +27,15 @@ struct Problem : Scene, RunSettings {
   return problem.start.phase - problem.shaking.lead + problem.oscillator.frequency * after;
 }
 
-/// The motion of the frame from the start of a problem on, or from a time after it, if absolute motion is asked for and
-/// something is shaken.
+/// The motion that is added to the computed one, from the start of a problem on, or from a time after it, if something
+/// is shaken: that of the frame if absolute motion is asked for, and with a loose mass, whose motion is computed as the
+/// ground sees it, its reverse if relative motion is.
 [[nodiscard]] inline std::optional<FrameMotion> observed_frame(const Problem& problem, double after = 0.0) {
-  if (problem.observe.frame == Frame::relative || !is_shaken(problem.shaking)) return std::nullopt;
-  return FrameMotion(problem.shaking, problem.oscillator, forcing_phase(problem, after));
+  const bool is_on_ground = has_loose_mass(problem.loose);
+  const bool is_as_computed = (problem.observe.frame == Frame::absolute) == is_on_ground;
+  if (is_as_computed || !is_shaken(problem.shaking)) return std::nullopt;
+  const FrameMotion frame(problem.shaking, problem.oscillator, forcing_phase(problem, after));
+  return is_on_ground ? frame.reversed() : frame;
 }
 
 /// The limits of a run of a problem.

@@ -31,6 +31,7 @@ struct Effects {
   bool stiffness = false;             ///< a spring of stiffness k other than 1, or none
   bool soft = false;                  ///< a soft stop in reach
   bool friction = false;              ///< dry friction
+  bool loose = false;                 ///< a loose mass between walls that the main mass carries
 
   [[nodiscard]] constexpr bool stops() const { return lower || upper; }
 
@@ -47,10 +48,10 @@ struct Effects {
   const bool decays_twice = some.damping >= Damping::critical;
   const bool damping =
       decays_twice ? all.damping == Damping::heavy : all.damping <= Damping::light && all.damping >= some.damping;
-  const bool stiffness = all.stiffness == some.stiffness || (all.soft && all.stiffness);
+  const bool stiffness = all.stiffness == some.stiffness || ((all.soft || all.loose) && all.stiffness);
   return damping && stiffness && all.forcing >= some.forcing && all.load >= some.load && all.lower >= some.lower &&
          all.upper >= some.upper && all.dissipation >= some.dissipation && all.rest >= some.rest &&
-         all.soft >= some.soft && all.friction >= some.friction;
+         all.soft >= some.soft && all.friction >= some.friction && all.loose == some.loose;
 }
 
 namespace effect_sets {
@@ -82,6 +83,10 @@ namespace effect_sets {
   effects.friction = true;
   return effects;
 }
+/// The main mass has no stops. While a wall presses the loose mass the two move as one, on a spring of another k.
+[[nodiscard]] constexpr Effects with_loose_mass(Damping damping, Forcing forcing) {
+  return {.damping = damping, .forcing = forcing, .load = true, .stiffness = true, .loose = true};
+}
 
 }  // namespace effect_sets
 
@@ -91,7 +96,8 @@ namespace effect_sets {
 /// critical damping, which is rare. A stiffness other than 1 has two sets that contain all the rest: points with k > 0
 /// are run with k = 1, in other units of time, so only those without a spring or with an unstable one need them.
 /// Soft stops need them, too, as the mass moves on another spring while it is in contact; and so does friction, which
-/// has two sets of its own, as it divides each flight into slips. src/scene/README.md has the cost of each effect.
+/// has two sets of its own, as it divides each flight into slips. A loose mass has two, too: its motion has twice as
+/// many numbers, and other events. src/scene/README.md has the cost of each effect.
 inline constexpr std::array compiled_effects{
     effect_sets::free_of_stops(Damping::none, Forcing::none),
     effect_sets::free_of_stops(Damping::light, Forcing::regular),
@@ -111,6 +117,8 @@ inline constexpr std::array compiled_effects{
     effect_sets::with_soft_stops(Damping::heavy, Forcing::regular),
     effect_sets::with_friction(Damping::light, Forcing::secular),
     effect_sets::with_friction(Damping::heavy, Forcing::regular),
+    effect_sets::with_loose_mass(Damping::light, Forcing::secular),
+    effect_sets::with_loose_mass(Damping::heavy, Forcing::regular),
 };
 
 /// The cheapest compiled set that contains the effects: an index of `compiled_effects`.
@@ -125,7 +133,7 @@ inline constexpr std::array compiled_effects{
 [[nodiscard]] inline bool cheaper(const Effects& one, const Effects& other) {
   const auto key = [](const Effects& e) {
     return std::tuple(effect_set_of(e), e.damping, e.forcing, e.stiffness, e.load, e.lower, e.upper, e.dissipation,
-                      e.rest, e.soft, e.friction);
+                      e.rest, e.soft, e.friction, e.loose);
   };
   return key(one) < key(other);
 }
@@ -152,6 +160,9 @@ inline constexpr double secular_distance = 1.0 / 16.0;
 /// Every effect that a scene can have.
 [[nodiscard]] inline Effects all_effects(const Scene& scene) {
   const bool rotates = clatter::rotates(scene.oscillator);
+  if (has_loose_mass(scene.loose))
+    return rotates ? effect_sets::with_loose_mass(Damping::light, Forcing::secular)
+                   : effect_sets::with_loose_mass(Damping::heavy, Forcing::regular);
   if (has_friction(scene.friction))
     return rotates ? effect_sets::with_friction(Damping::light, Forcing::secular)
                    : effect_sets::with_friction(Damping::heavy, Forcing::regular);

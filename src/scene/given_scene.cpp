@@ -13,6 +13,17 @@ bool has_frequency(const GivenScene& given) {
   return is_driven && given.oscillator.frequency != 0;
 }
 
+/// The scene on a shaken base as the ground sees it (eq. 69).
+Scene on_the_ground(Scene scene) {
+  const double theta = scene.start.phase + scene.shaking.phase, nu = scene.oscillator.frequency;
+  scene.start.displacement += scene.shaking.base * std::sin(theta);
+  scene.start.velocity += scene.shaking.base * nu * std::cos(theta);
+  const auto [amplitude, lead] = force_on_ground(scene.oscillator, scene.shaking);
+  scene.oscillator.forcing = amplitude, scene.shaking.lead = lead;
+  scene.start.phase += lead;
+  return scene;
+}
+
 }  // namespace
 
 Units natural_units(const GivenScene& given) {
@@ -35,6 +46,7 @@ std::pair<Scene, Units> computed(const GivenScene& given) {
 
 Scene in_shaken_frame(Scene scene) {
   if (!is_shaken(scene.shaking)) return scene;
+  if (has_loose_mass(scene.loose)) return on_the_ground(scene);
   const auto [amplitude, lead] = force_in_frame(scene.oscillator, scene.shaking);
   scene.oscillator.forcing = amplitude, scene.shaking.lead = lead;
   scene.start.phase += lead;

@@ -14,8 +14,8 @@ inline namespace scene {
 
 /// The numbers of a scene as its user gives them, in [scene], or in SI in [machine]: a mass m, its spring, damper and
 /// force, m X'' + c X' + K X = F sin(2 pi frequency t + phase) + L. There K, F, L and the frequency, in Hz, are the
-/// oscillator's stiffness, forcing, load and frequency. The damping is given in one of several ways; those that aren't
-/// used stay at their neutral values. In [scene] the mass is 1.
+/// oscillator's stiffness, forcing, load and frequency, and the ratio of a loose mass is the mass itself. The damping
+/// is given in one of several ways; those that aren't used stay at their neutral values. In [scene] the mass is 1.
 template <class Number>
 struct BasicGivenScene : BasicScene<Number> {
   Number mass{1.0};                                         ///< m, kg, > 0
@@ -53,6 +53,8 @@ template <class Number>
   f = f / force, load = load / force, k = k / force;
   scene.friction.kinetic = scene.friction.kinetic / force;
   scene.friction.static_level = scene.friction.static_level / force;
+  scene.loose.ratio = scene.loose.ratio / m;
+  scene.loose.load = scene.loose.load * (T * T), scene.loose.velocity = scene.loose.velocity * T;
   nu = (given.is_si ? 2 * std::numbers::pi : 1.0) * nu * T;
   h = h * T + given.damper * T / (2 * m);
   if (!is_always_zero(given.damping_ratio)) h += given.damping_ratio * sqrt(abs(k));
@@ -106,6 +108,7 @@ template <class Number>
 [[nodiscard]] std::pair<Scene, Units> computed(const GivenScene& given);
 
 /// The scene in the frame of what is shaken, with the force there in place of the one that was given (eqs. 39 to 41).
+/// With a loose mass, which a moving frame would push, too, it is that of the ground: the shaken base becomes a force.
 [[nodiscard]] Scene in_shaken_frame(Scene scene);
 
 }  // namespace scene

@@ -38,6 +38,8 @@ class Parameter {
   [[nodiscard]] constexpr std::string_view key() const { return row().key; }
   [[nodiscard]] constexpr Role role() const { return row().role; }
   [[nodiscard]] constexpr Side side() const { return row().side; }
+  /// Whether it is one of a loose mass.
+  [[nodiscard]] constexpr bool is_loose() const { return row().is_loose; }
   /// Whether its key sets a number of both stops.
   [[nodiscard]] constexpr bool is_of_both() const { return row().place_of_upper != nullptr; }
   /// Whether its key stands for that of another parameter, one of each stop.
@@ -55,7 +57,9 @@ class Parameter {
   }
   /// Whether a scene that is its own mirror image stays so if the parameter changes; a stiffness moves the equilibrium
   /// of a load.
-  [[nodiscard]] constexpr bool keeps_symmetry() const { return side() == Side::none && role() != Role::load; }
+  [[nodiscard]] constexpr bool keeps_symmetry() const {
+    return side() == Side::none && role() != Role::load && role() != Role::loose_load;
+  }
 
   friend constexpr bool operator==(Parameter, Parameter) = default;
 

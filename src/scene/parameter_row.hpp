@@ -18,8 +18,9 @@ enum class Role : std::uint8_t {
   load,         ///< constant force
   shaking,      ///< amplitude of stops or base
   friction,     ///< a level of dry friction
-  position,     ///< of a stop
-  restitution,  ///< of a rigid stop
+  loose_load,   ///< constant acceleration of a loose mass
+  position,     ///< of a stop, or of a wall of a loose mass
+  restitution,  ///< of a rigid stop, or of such walls
   softness,     ///< stiffness of a soft stop
   stop_damping  ///< damping of a soft stop, in one of several ways
 };
@@ -44,8 +45,9 @@ struct ParameterRow {
   std::string_view other{};        ///< the key that gives the value of both sides, in its place
   std::string_view counterpart{};  ///< the key that says the same in the other section
   Role role = Role::other;
-  Side side = Side::none;     ///< of the stop that it belongs to, if it is of one of them
+  Side side = Side::none;     ///< of the stop or wall that it belongs to, if it is of one of them
   bool is_with_unit = false;  ///< the key of the row before, if its value has a unit
+  bool is_loose = false;      ///< of a loose mass
   using Place = Number& (*)(BasicGivenScene<Number>&);
   Place place = nullptr, place_of_upper = nullptr;  ///< the second one of a key of both stops, whose first is the lower
 };

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "scene/loose_rows.hpp"
 #include "scene/parameter_row.hpp"
 #include "scene/stop_rows.hpp"
 
@@ -215,7 +216,7 @@ constexpr auto parameter_rows() {
           .role = Role::start,
           .place = at<Number, &Given::start_period>},
   };
-  return joined(before_stops, stop_rows<Number>(), after_stops);
+  return joined(before_stops, stop_rows<Number>(), after_stops, loose_rows<Number>());
 }
 
 }  // namespace scene

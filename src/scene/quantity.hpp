@@ -15,6 +15,7 @@ enum class Quantity : std::uint8_t {
   frequency,  ///< an angular frequency; of a machine in cycles, Hz
   rate,       ///< one over a time that is no frequency, such as an exponent
   velocity,
+  acceleration,
   mass,
   force,
   stiffness,  ///< force over displacement
@@ -45,6 +46,8 @@ struct Exponents {
       return {0, -1, 0};
     case Quantity::velocity:
       return {1, -1, 0};
+    case Quantity::acceleration:
+      return {1, -2, 0};
     case Quantity::mass:
       return {0, 0, 1};
     case Quantity::force:
@@ -80,6 +83,8 @@ struct Exponents {
       return "s-1";
     case Quantity::velocity:
       return "m s-1";
+    case Quantity::acceleration:
+      return "m s-2";
     case Quantity::mass:
       return "kg";
     case Quantity::force:

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scene/friction.hpp"
+#include "scene/loose_mass.hpp"
 #include "scene/oscillator.hpp"
 #include "scene/shaking.hpp"
 #include "scene/stops.hpp"
@@ -22,8 +23,8 @@ struct BasicStart {
 };
 using Start = BasicStart<double>;
 
-/// An oscillator, its stops, its start, the shaking by which displacements count, and its friction: everything that the
-/// motion depends on.
+/// An oscillator, its stops, its start, the shaking by which displacements count, its friction, and the loose mass that
+/// it carries: everything that the motion depends on.
 template <class Number>
 struct BasicScene {
   BasicOscillator<Number> oscillator{};
@@ -31,15 +32,20 @@ struct BasicScene {
   BasicStart<Number> start{};
   BasicShaking<Number> shaking{};
   BasicFriction<Number> friction{};
+  BasicLooseMass<Number> loose{};
 };
 using Scene = BasicScene<double>;
 
 /// The place about which the mirror image of each motion, half a forcing period later, is a motion too: the equilibrium
 /// of the spring or, without spring and load, the middle between the stops. Nothing if stops or load aren't the same on
-/// both sides of it, to rounding.
+/// both sides of it, to rounding. A loose mass is mirrored about the middle of its walls; with a load of its own, or
+/// one wall, it has no mirror image.
 [[nodiscard]] inline std::optional<double> mirror_centre(const Scene& scene) {
   const Stops& stops = scene.stops;
   const Oscillator& o = scene.oscillator;
+  const LooseMass& loose = scene.loose;
+  const bool is_housed = std::isfinite(loose.lower) && std::isfinite(loose.upper);
+  if (has_loose_mass(loose) && (loose.load != 0 || !is_housed)) return std::nullopt;
   const bool bounded = std::isfinite(stops.lower) && std::isfinite(stops.upper);
   if (!bounded && (std::isfinite(stops.lower) || std::isfinite(stops.upper))) return std::nullopt;
   const bool alike = stops.restitution_lower == stops.restitution_upper &&

@@ -53,6 +53,20 @@ template <class Number>
   return {hypot(in_phase, quadrature), atan2(quadrature, in_phase)};
 }
 
+/// The force on the mass in the frame of the ground: f sin(theta), and those of the spring and the damper of a base
+/// that is shaken (eq. 69).
+template <class Number>
+[[nodiscard]] LeadingForce<Number> force_on_ground(const BasicOscillator<Number>& oscillator,
+                                                   const BasicShaking<Number>& shaking) {
+  using std::atan2, std::cos, std::hypot, std::sin;
+  const auto& [h, f, nu, load, k] = oscillator;
+  const Number along = k * shaking.base, across = 2 * h * nu * shaking.base, &phase = shaking.phase;
+  const Number in_phase = f + along * cos(phase) - across * sin(phase),
+               quadrature = along * sin(phase) + across * cos(phase);
+  if (is_always_zero(quadrature)) return {in_phase, Number(0)};
+  return {hypot(in_phase, quadrature), atan2(quadrature, in_phase)};
+}
+
 /// The frame in which displacements and velocities are given: that of what is shaken, or that of the ground.
 enum class Frame : std::uint8_t { relative, absolute };
 
@@ -68,6 +82,13 @@ class FrameMotion {
         phase_(theta + shaking.phase),
         lead_{std::sin(shaking.lead - shaking.phase), std::cos(shaking.lead - shaking.phase)},
         is_forced_(oscillator.forcing != 0) {}
+
+  /// The same backwards: relative motion less absolute motion.
+  [[nodiscard]] FrameMotion reversed() const {
+    FrameMotion other = *this;
+    other.b_ = -b_;
+    return other;
+  }
 
   [[nodiscard]] double amplitude() const { return std::abs(b_); }
   [[nodiscard]] double frequency() const { return nu_; }

@@ -7,6 +7,7 @@
 #include "steady/doubt.hpp"
 #include "steady/forced_search.hpp"
 #include "steady/free_search.hpp"
+#include "steady/loose_search.hpp"
 #include "stepping/integration.hpp"
 
 namespace clatter::steady {
@@ -41,15 +42,12 @@ template <stepping::Integrator I>
   }
 }
 
-/// The time to observe of a scene that starts from `state`. General methods take no shortcut, nor does motion under dry
-/// friction, of which no closed form and no neighbourhood is proved. Nor does a run with all
-/// effects, which others are compared with: it simulates all of max_periods and looks for a repeat only at their end.
+/// Without a loose mass.
 template <stepping::Integrator I>
-[[nodiscard]] ObservedTime find_steady(I& integrator, const motion::State<double>& state, const Scene& scene,
-                                       const TimeSettings& time, const stepping::Integration& integration) {
+[[nodiscard]] ObservedTime find_steady_between_stops(I& integrator, const motion::State<double>& state,
+                                                     const Scene& scene, const TimeSettings& time,
+                                                     const stepping::Integration& integration) {
   constexpr Effects E = I::effects;
-  if (time.mode == Mode::transient)
-    return {Status::transient, state, time.duration / integrator.period(), 0.0, FoundBy::start};
   const bool forced = E.forcing != Forcing::none && scene.oscillator.forcing != 0;
   if (!forced) return FreeSearch(integrator, scene, time, integration.all_effects).run(state);
   if constexpr (E.forcing != Forcing::none) {
@@ -61,6 +59,23 @@ template <stepping::Integrator I>
     return find_repetition(integrator, state, scene, time, 0);
   }
   return {};
+}
+
+/// The time to observe of a scene that starts from `state`. General methods take no shortcut, nor does motion under dry
+/// friction, of which no closed form and no neighbourhood is proved. Nor does a run with all
+/// effects, which others are compared with: it simulates all of max_periods and looks for a repeat only at their end.
+template <stepping::Integrator I>
+[[nodiscard]] ObservedTime find_steady(I& integrator, const motion::State<double>& state, const Scene& scene,
+                                       const TimeSettings& time, const stepping::Integration& integration) {
+  constexpr Effects E = I::effects;
+  if (time.mode == Mode::transient)
+    return {Status::transient, state, time.duration / integrator.period(), 0.0, FoundBy::start};
+  if constexpr (E.loose) {
+    const std::int64_t from = integration.all_effects ? last_look(scene.oscillator, time.max_periods) : 0;
+    return find_repetition_in_housing(integrator, state, scene, time, from);
+  } else {
+    return find_steady_between_stops(integrator, state, scene, time, integration);
+  }
 }
 
 }  // namespace clatter::steady

@@ -44,6 +44,16 @@ class PassageObserver {
     if (differentiates_) tangent_.impact(impact);
   }
 
+  /// Of a loose mass: areas are volumes of four numbers, of which a press takes two.
+  void strike(const motion::Strike& strike) {
+    add(strike.side == Side::upper ? 2 : 1);
+    passage_.log_area += 2 * std::log(std::abs(strike.after / strike.before));
+  }
+  void press(const motion::Press& press) {
+    add(press.side == Side::upper ? 4 : 3);
+    passage_.log_area = -std::numeric_limits<double>::infinity();
+  }
+
   void reversal(const motion::Reversal& reversal) {
     add(14);
     passage_.log_area += std::log(reversal.after / reversal.before);

@@ -36,22 +36,30 @@ class BeginsBefore {
 };
 
 /// Finds the number of forcing periods after which a motion repeats, from its states at the sections (the stroboscopic
-/// sections of `motion::State`). A repeat counts once the whole rest of the transient is below the tolerance, not just
-/// the part that n periods remove, which is small if motion contracts slowly. It must also hold for another n periods:
-/// motion that forgets its past on a stop, and is chaotic after it, returns to a state to rounding and then diverges.
-class RepeatFinder {
+/// sections of `motion::State`): a displacement and one other number, its velocity, or with a loose mass three, the
+/// velocity, and the place of the loose mass in its housing with z'. Each pair is compared by its own size. A repeat
+/// counts once the whole rest of the transient is below the tolerance, not just the part that n periods remove, which
+/// is small if motion contracts slowly. It must also hold for another n periods: motion that forgets its past on a
+/// stop, and is chaotic after it, returns to a state to rounding and then diverges.
+template <std::size_t others>
+class BasicRepeatFinder {
  public:
+  using Others = std::array<double, others>;  ///< of a state, without its displacement
+
   static constexpr std::size_t longest = 64;         ///< forcing periods of the longest motion looked for
   static constexpr double divisor_tolerances = 100;  ///< a divisor counts as the period within so many
 
   /// Looks for a repeat at every `looks_every`-th section: rarely, if a period costs less than a look.
-  explicit RepeatFinder(double tolerance, std::size_t looks_every = 1)
+  explicit BasicRepeatFinder(double tolerance, std::size_t looks_every = 1)
       : tolerance_(tolerance), looks_every_(looks_every) {}
 
   /// Takes the next section's state, and the logarithm of the factor by which the period before it changed a small area
-  /// of states; returns the n after which the motion repeats, 0 while it doesn't.
-  [[nodiscard]] std::size_t add(double x, double v, double log_area) {
-    const std::size_t now = keep(x, v, log_area);
+  /// (with more numbers, volume) of states; returns the n after which the motion repeats, 0 while it doesn't.
+  [[nodiscard]] std::size_t add(double x, double v, double log_area) requires(others == 1) {
+    return add(x, Others{v}, log_area);
+  }
+  [[nodiscard]] std::size_t add(double x, const Others& other, double log_area) {
+    const std::size_t now = keep(x, other, log_area);
     if (candidate_ > 0 && !repeats(now, candidate_, divisor_tolerances * tolerance_)) candidate_ = 0;
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
     if (candidate_ > 0 || ++waited_ < looks_every_) return 0;
@@ -68,8 +76,8 @@ class RepeatFinder {
 
   /// Takes a later section's state, sections having been left out before it; returns whether it is that of one of the
   /// last `longest` states taken.
-  [[nodiscard]] bool sample(double x, double v) {
-    keep(x, v, 0);
+  [[nodiscard]] bool sample(double x, double v) requires(others == 1) {
+    keep(x, Others{v}, 0);
     return next_within(tolerance_, 1) > 0;
   }
 
@@ -83,7 +91,7 @@ class RepeatFinder {
   /// other; 0 for none.
   [[nodiscard]] std::size_t next_within(double distance, std::size_t n) const {
     const std::size_t now = size_ - 1, last = std::min(longest, now);
-    const double x = x_[now], limit = distance * std::max(std::abs(x), std::abs(others_[now].v));
+    const double x = x_[now], limit = distance * std::max(std::abs(x), std::abs(v_at(now)));
     std::int64_t near = 0;  // as wide as double, and without branches, so that compilers use vectors
     for (std::size_t i = now - last; i + n <= now; ++i) near = std::abs(x - x_[i]) <= limit ? std::int64_t{1} : near;
     if (near == 0) return 0;
@@ -99,14 +107,14 @@ class RepeatFinder {
 
   /// Displacement and velocity so many sections ago, at most 2 longest.
   [[nodiscard]] double x(std::size_t ago) const { return x_[size_ - 1 - ago]; }
-  [[nodiscard]] double v(std::size_t ago) const { return others_[size_ - 1 - ago].v; }
+  [[nodiscard]] double v(std::size_t ago) const { return v_at(size_ - 1 - ago); }
 
   /// Index among the last n states, 0 for the newest, of the one at which the observed period begins.
   [[nodiscard]] std::size_t first_of_last(std::size_t n, const BeginsBefore& before) const {
     const std::size_t now = size_ - 1;
     std::size_t best = 0;
     for (std::size_t i = 1; i < n; ++i)
-      if (before(x_[now - i], others_[now - i].v, x_[now - best], others_[now - best].v)) best = i;
+      if (before(x_[now - i], v_at(now - i), x_[now - best], v_at(now - best))) best = i;
     return best;
   }
 
@@ -118,9 +126,9 @@ class RepeatFinder {
   static constexpr std::ptrdiff_t kept = 2 * longest;  // two rounds of the longest motion
 
   /// Keeps a state; returns its index.
-  std::size_t keep(double x, double v, double log_area) {
+  std::size_t keep(double x, const Others& other, double log_area) {
     if (size_ == capacity) forget();
-    x_[size_] = x, others_[size_] = {v, log_area};
+    x_[size_] = x, others_[size_] = {other, log_area};
     return size_++;
   }
   void forget() {
@@ -131,14 +139,28 @@ class RepeatFinder {
 
   /// Whether the states at `now` and n sections before are the same, to a tolerance.
   [[nodiscard]] bool repeats(std::size_t now, std::size_t n, double tolerance) const {
-    const double limit = tolerance * std::max(std::abs(x_[now]), std::abs(others_[now].v));
-    return std::abs(x_[now] - x_[now - n]) <= limit && std::abs(others_[now].v - others_[now - n].v) <= limit;
+    const double limit = tolerance * std::max(std::abs(x_[now]), std::abs(v_at(now)));
+    bool same = std::abs(x_[now] - x_[now - n]) <= limit && std::abs(v_at(now) - v_at(now - n)) <= limit;
+    for (std::size_t i = 1; i + 1 < others; i += 2) same = same && change(now, n, i) <= tolerance * size(now, i);
+    return same;
+  }
+  [[nodiscard]] double v_at(std::size_t i) const { return others_[i].other[0]; }
+  /// The larger change over n sections of the i-th of the other numbers and the next one, and their size.
+  [[nodiscard]] double change(std::size_t now, std::size_t n, std::size_t i) const {
+    const Others &a = others_[now].other, &b = others_[now - n].other;
+    return std::max(std::abs(a[i] - b[i]), std::abs(a[i + 1] - b[i + 1]));
+  }
+  [[nodiscard]] double size(std::size_t now, std::size_t i) const {
+    return std::max(std::abs(others_[now].other[i]), std::abs(others_[now].other[i + 1]));
   }
 
-  /// Distance of the states at `now` and m sections before, over the larger of |x|, |v|.
+  /// Distance of the states at `now` and m sections before, over the larger of |x|, |v|; of the two pairs the larger.
   [[nodiscard]] double distance(std::size_t now, std::size_t m) const {
-    const double difference = std::max(std::abs(x_[now] - x_[now - m]), std::abs(others_[now].v - others_[now - m].v));
-    return difference / std::max(std::abs(x_[now]), std::abs(others_[now].v));
+    const double difference = std::max(std::abs(x_[now] - x_[now - m]), std::abs(v_at(now) - v_at(now - m)));
+    double largest = difference / std::max(std::abs(x_[now]), std::abs(v_at(now)));
+    for (std::size_t i = 1; i + 1 < others; i += 2)
+      if (const double other = change(now, m, i) / size(now, i); other > largest) largest = other;
+    return largest;
   }
 
   /// Whether no divisor's distance is still shrinking at a hit at n: else a slowly alternating transient would pass for
@@ -149,11 +171,11 @@ class RepeatFinder {
     return true;
   }
 
-  /// The modulus of the multipliers of n periods, if they are a pair, by the factor by which areas shrank in them.
+  /// The modulus of the multipliers of n periods, if all are the same, by the factor by which areas shrank in them.
   [[nodiscard]] double area_rate(std::size_t now, std::size_t n) const {
     double log_area = 0;
     for (std::size_t i = 0; i < n; ++i) log_area += others_[now - i].log_area;
-    return std::exp(log_area / 2);
+    return std::exp(log_area / (others + 1));
   }
 
   /// Distance to the motion that a hit at n settles to: the sum of a geometric series. Its ratio is that of the last
@@ -212,13 +234,15 @@ class RepeatFinder {
   double closest_ = 0.0;                         ///< its least distance
   std::uint64_t falling_ = 0;                    ///< a bit for each divisor whose distance has only fallen since
   std::size_t size_ = 0;
-  /// Of a section: its velocity, and the area's factor of the period before it.
-  struct VelocityAndArea {
-    double v, log_area;
+  /// Of a section: the other numbers of its state, and the area's factor of the period before it.
+  struct OthersAndArea {
+    Others other;
+    double log_area;
   };
   std::array<double, capacity> x_;  ///< the first `size_` are set; apart from the others, since they are compared first
-  std::array<VelocityAndArea, capacity> others_;
+  std::array<OthersAndArea, capacity> others_;
 };
+using RepeatFinder = BasicRepeatFinder<1>;
 
 /// The section from which on a run with all effects looks for a repeat: early enough before max_periods to find a
 /// motion of 64 periods, and to see a slow transient come to a halt at rounding (`RepeatFinder`).

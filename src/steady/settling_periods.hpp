@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "motion/walls.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/passage_observer.hpp"
 #include "steady/time_settings.hpp"
@@ -16,10 +17,11 @@ namespace clatter::steady {
 /// Forcing periods after which forced motion from `start` stays within `distance` of the periodic one that it was found
 /// to end in: from that stroboscopic section on, no state is further from that of the periodic motion at the same
 /// section, relative to the larger of its |x| and |v|, velocities being counted in units of `velocity`. NaN if it has
-/// none, or isn't that close after max_periods.
+/// none, or isn't that close after max_periods. A loose mass has to be as near to its own, by |z| and |z'|.
 template <stepping::Integrator I>
 [[nodiscard]] double settling_periods(I integrator, motion::State<double> start, const ObservedTime& found,
-                                      const TimeSettings& time, double distance, double velocity) {
+                                      const TimeSettings& time, double distance, double velocity,
+                                      const LooseMass& loose) {
   constexpr double never = std::numeric_limits<double>::quiet_NaN();
   if (!(found.status == Status::periodic || found.status == Status::grazing) || !std::isfinite(found.settling))
     return never;
@@ -39,7 +41,14 @@ template <stepping::Integrator I>
     const std::int64_t ahead = (state.periods - found.from.periods) % period;
     const motion::State<double>& steady = cycle[static_cast<std::size_t>(ahead < 0 ? ahead + period : ahead)];
     const double limit = distance * std::max(std::abs(steady.x), velocity * std::abs(steady.v));
-    return std::abs(state.x - steady.x) <= limit && velocity * std::abs(state.v - steady.v) <= limit;
+    const bool is_main_near = std::abs(state.x - steady.x) <= limit && velocity * std::abs(state.v - steady.v) <= limit;
+    if constexpr (I::effects.loose) {
+      const auto [z, w] = motion::place_in_housing(state, loose);
+      const auto [steady_z, steady_w] = motion::place_in_housing(steady, loose);
+      const double most = distance * std::max(std::abs(steady_z), velocity * std::abs(steady_w));
+      return is_main_near && std::abs(z - steady_z) <= most && velocity * std::abs(w - steady_w) <= most;
+    }
+    return is_main_near;
   };
   const auto last =
       static_cast<std::int64_t>(std::min(std::ceil(found.settling), static_cast<double>(time.max_periods)));

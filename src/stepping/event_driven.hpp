@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "motion/chatter.hpp"
-#include "stepping/soft_phases.hpp"
+#include "stepping/loose_phases.hpp"
 
 namespace clatter::stepping {
 
 /// Event-driven integration: from contact to contact, chatter completed, rests released at their exact time.
 template <class Method, class N, Effects E>
-class EventDriven : public SoftPhases<Method, N, E> {
-  using Base = SoftPhases<Method, N, E>;
+class EventDriven : public LoosePhases<Method, N, E> {
+  using Base = LoosePhases<Method, N, E>;
 
  public:
   using Number = N;
@@ -62,19 +62,25 @@ class EventDriven : public SoftPhases<Method, N, E> {
   /// | beyond a stop | free               | depth; pull of the soft stop  | back between the stops; renewal       |
   /// | slips         | with the friction  | gap ahead, or force; velocity | the same; stick, rest, reversal       |
   /// | sticks        | held by friction   | its level, in closed form     | release                               |
+  /// | in a housing  | free, and y''      | gaps to both walls            | impact of the loose mass, press       |
+  /// | pressed       | both masses as one | force of the wall             | release                               |
   template <class Observer>
   [[nodiscard]] Outcome run_phase(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                   Observer& observer) {
-    if constexpr (E.friction)
-      if (this->is_rough()) return run_rough_phase(state, end, origin, observer);
-    if constexpr (E.soft) {
-      if (this->has_soft_stops() && this->soft_stop_around(state) != Side::none)
-        return state.pressed ? this->run_in_contact(state, end, origin, observer)
-                             : this->run_beyond(state, end, origin, observer);
+    if constexpr (E.loose) {
+      return this->run_loose(state, end, origin, observer);
+    } else {
+      if constexpr (E.friction)
+        if (this->is_rough()) return run_rough_phase(state, end, origin, observer);
+      if constexpr (E.soft) {
+        if (this->has_soft_stops() && this->soft_stop_around(state) != Side::none)
+          return state.pressed ? this->run_in_contact(state, end, origin, observer)
+                               : this->run_beyond(state, end, origin, observer);
+      }
+      if (E.rest && state.chatters) return run_in_chatter(state, end, origin, observer);
+      if (const auto stop = this->holding_stop(state)) return rest(state, *stop, end, origin, observer);
+      return run_between(state, end, origin, observer);
     }
-    if (E.rest && state.chatters) return run_in_chatter(state, end, origin, observer);
-    if (const auto stop = this->holding_stop(state)) return rest(state, *stop, end, origin, observer);
-    return run_between(state, end, origin, observer);
   }
 
   /// Flies, finds the contact, and rebounds.

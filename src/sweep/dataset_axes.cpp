@@ -63,13 +63,13 @@ void name_observable(std::string_view key, results::Variable& variable) {
   variable.attributes.emplace_back("observable", std::string(key));
 }
 
-void add_drawn_names(bool is_si, results::Dataset& dataset) {
+void add_drawn_names(bool is_si, results::Dataset& dataset, bool has_loose_mass) {
   for (results::Variable& variable : dataset.variables) {
-    auto [words, symbol] = observables::drawn_name(variable.name, is_si);
+    auto [words, symbol] = observables::drawn_name(variable.name, is_si, has_loose_mass);
     if (!words.empty()) variable.attributes.emplace_back("label", std::move(words));
     if (!symbol.empty()) variable.attributes.emplace_back("symbol", std::move(symbol));
   }
-  dataset.attributes.emplace_back("scene_names", observables::scene_names(is_si));
+  dataset.attributes.emplace_back("scene_names", observables::scene_names(is_si, has_loose_mass));
 }
 
 void name_linked_axes(const Sweep& sweep, results::Dataset& dataset) {

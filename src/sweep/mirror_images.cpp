@@ -89,9 +89,10 @@ MirrorImages::MirrorImages(const Sweep& sweep) : points_(size_one_way(sweep)) {
       problem.oscillator.forcing != 0 || is_shaken(sweep) || std::ranges::any_of(sweep.dimensions, drives);
   const bool paired = (problem.start.displacement == 0 || is_swept(sweep, x0)) &&
                       (problem.start.velocity == 0 || is_swept(sweep, v0)) && (!forced || is_swept(sweep, phase));
-  if (!paired || problem.time.mode != steady::Mode::steady || problem.integration.method != stepping::Method::exact ||
-      problem.integration.all_effects || sweep.follow || !std::isnan(problem.start_period) ||
-      is_swept(sweep, start_period) || !is_always_symmetric(sweep) || !can_mirror(problem.observe))
+  if (!paired || has_loose_mass(sweep) || problem.time.mode != steady::Mode::steady ||
+      problem.integration.method != stepping::Method::exact || problem.integration.all_effects || sweep.follow ||
+      !std::isnan(problem.start_period) || is_swept(sweep, start_period) || !is_always_symmetric(sweep) ||
+      !can_mirror(problem.observe))
     return;
   std::vector<std::vector<std::size_t>> images;
   for (const Dimension& dimension : sweep.dimensions) {

@@ -296,7 +296,7 @@ results::Dataset ResultStore::dataset() {
   }
   if (numbering_) add_attractors(sweep_, shard_.has_value(), along_, std::move(*numbering_), dataset);
   if (sweep_.problem.observe.impact_log) add_impact_log(dataset);
-  add_drawn_names(sweep_.problem.is_si, dataset);
+  add_drawn_names(sweep_.problem.is_si, dataset, has_loose_mass(sweep_));
   name_linked_axes(sweep_, dataset);
   name_samples(sweep_, dataset);
   return dataset;

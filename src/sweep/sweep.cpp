@@ -20,6 +20,16 @@ bool is_shaken(const Sweep& sweep) {
          });
 }
 
+bool has_loose_mass(const Sweep& sweep) {
+  const auto gives_mass = [](const Axis& axis) {
+    return axis.parameter == Parameter("loose_mass") &&
+           std::ranges::any_of(axis.values, [](double value) { return value != 0; });
+  };
+  return has_loose_mass(sweep.problem.loose) || std::ranges::any_of(sweep.dimensions, [&](const Dimension& dimension) {
+           return std::ranges::any_of(dimension, gives_mass);
+         });
+}
+
 std::size_t size_one_way(const Sweep& sweep) {
   std::size_t points = 1;
   for (const Dimension& dimension : sweep.dimensions) points *= length(dimension);

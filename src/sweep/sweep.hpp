@@ -69,6 +69,9 @@ void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
 /// Whether stops or base are shaken at any point.
 [[nodiscard]] bool is_shaken(const Sweep& sweep);
 
+/// Whether there is a loose mass at any point.
+[[nodiscard]] bool has_loose_mass(const Sweep& sweep);
+
 /// Puts the force in the moving frame in place of the one that was given (eqs. 39 to 41); phases that the user gave are
 /// those of the force that was given.
 void enter_shaken_frame(point::Problem& problem);

@@ -35,6 +35,7 @@ NEXT = {  # room: its right-hand neighbours; what these may include, it may incl
 }
 KNOWN_TO = {  # library header: the only rooms that see it
     r"fftw3": {"observables"},
+    r"Eigen": {"observables"},
     r"omp\.h": {"sweep"},
     r"hdf5|H5": {"results"},
     r"toml": {"config"},
@@ -71,6 +72,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
     },
     r"toml": {"src/config/toml_reader.cpp"},
     r"fftw3": {"src/observables/fourier_transform.cpp"},
+    r"Eigen": {"src/observables/multipliers.cpp"},
     r"nlohmann": {
         "apps/clatter/config_schema.cpp",
         "apps/clatter/json_output.cpp",
@@ -98,6 +100,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/point/exact_points_forced.cpp",
         "src/point/exact_points_free.cpp",
         "src/point/exact_points_friction.cpp",
+        "src/point/exact_points_loose_mass.cpp",
         "src/point/exact_points_soft_stops.cpp",
         "src/point/fifty_digit_motions.cpp",
         "src/point/moreau_points.cpp",
@@ -111,6 +114,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/point/exact_points_forced.cpp",
         "src/point/exact_points_free.cpp",
         "src/point/exact_points_friction.cpp",
+        "src/point/exact_points_loose_mass.cpp",
         "src/point/exact_points_soft_stops.cpp",
         "src/point/moreau_points.cpp",
     },

@@ -9,11 +9,11 @@
 namespace clatter::config {
 namespace {
 
-/// The configuration of an example, with stops if it has none, and something observed.
+/// The configuration of an example, with stops if it has none and no loose mass, and something observed.
 Config config_of(const std::string& example) {
   std::vector<Override> changes{{"observe.extrema", "true"}};
   const bool stops = example.find("xs =") != std::string::npos || example.find("stop_") != std::string::npos ||
-                     example.find("gap =") != std::string::npos;
+                     example.find("gap =") != std::string::npos || example.find("loose_") != std::string::npos;
   if (!stops) changes.push_back({"scene.xs", "1"});
   return read_as("a.toml", example, changes);
 }

@@ -69,7 +69,7 @@ inline void vary_start(support::Random& random, const Stops& stops, Start& start
 [[nodiscard]] inline AnyScene any_sliding_scene(std::uint64_t index) {
   AnyScene any = any_scene(index);
   support::Random random(20470, index);
-  auto& [oscillator, stops, start, shaking, friction] = static_cast<Scene&>(any.scene);
+  auto& [oscillator, stops, start, shaking, friction, loose] = static_cast<Scene&>(any.scene);
   vary_stops(random, stops);
   if (!std::isfinite(stops.lower) && !std::isfinite(stops.upper)) start = any_start(random, {-1, 1, 1, 1});
   oscillator.stiffness = random.happens(0.75) ? 1 : any_other_stiffness(random, stops, any.duration);

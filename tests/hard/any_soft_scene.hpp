@@ -30,7 +30,7 @@ inline void soften(support::Random& random, const Oscillator& oscillator, Stops&
 [[nodiscard]] inline AnyScene any_soft_scene(std::uint64_t index) {
   AnyScene any = any_scene(index);
   support::Random random(20250, index);
-  auto& [oscillator, stops, start, shaking, friction] = static_cast<Scene&>(any.scene);
+  auto& [oscillator, stops, start, shaking, friction, loose] = static_cast<Scene&>(any.scene);
   soften(random, oscillator, stops);
   if (!random.happens(0.1)) return any;
   const Side side = is_soft(stops, Side::upper) ? Side::upper : Side::lower;

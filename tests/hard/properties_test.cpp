@@ -288,7 +288,7 @@ struct Trace : Watcher {
 
 AnyScene mirrored(AnyScene any) {
   Scene& scene = any.scene;
-  auto& [oscillator, stops, start, shaking, friction] = scene;
+  auto& [oscillator, stops, start, shaking, friction, loose] = scene;
   oscillator.forcing *= -1, oscillator.load *= -1;
   stops = {-stops.upper,          -stops.lower,          stops.restitution_upper, stops.restitution_lower,
            stops.stiffness_upper, stops.stiffness_lower, stops.damping_upper,     stops.damping_lower};
@@ -298,7 +298,7 @@ AnyScene mirrored(AnyScene any) {
 
 AnyScene scaled(AnyScene any, double by) {
   Scene& scene = any.scene;
-  auto& [oscillator, stops, start, shaking, friction] = scene;
+  auto& [oscillator, stops, start, shaking, friction, loose] = scene;
   for (double* length :
        {&oscillator.forcing, &oscillator.load, &stops.lower, &stops.upper, &start.displacement, &start.velocity})
     *length *= by;

@@ -25,7 +25,7 @@ Scene moved(const AnyScene& any, std::uint64_t way) {
   support::Random random(20471, 4 * any.index + way);
   const Scene& scene = any.scene;
   Scene other = scene;
-  auto& [o, stops, start, shaking, friction] = other;
+  auto& [o, stops, start, shaking, friction, loose] = other;
   const auto by = [](double sign) { return 1 + sign * 2 * epsilon<double>(); };
   const auto nudge = [&](double value) { return value * by(random.sign()); };
   for (double* value : {&o.damping, &o.forcing, &o.frequency, &o.load, &o.stiffness, &start.velocity,

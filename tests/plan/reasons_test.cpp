@@ -104,6 +104,23 @@ TEST(Reasons, the_oscillator_names_the_terms_of_its_arcs) {
   expect_reason(scene, "damping", true, "h = 2 > 1: free motion is the sum of a slow and a fast decay");
 }
 
+TEST(Reasons, a_loose_mass_is_named_in_place_of_stops_and_whether_it_can_strike) {
+  point::Problem scene;
+  scene.oscillator = {.damping = 0.05, .forcing = 0.02};
+  scene.loose = {.ratio = 0.02, .lower = -0.4, .upper = 0.4, .restitution = 0.8};
+  EXPECT_THROW((void)reason(scene, "upper stop"), std::out_of_range);
+  EXPECT_THROW((void)reason(figure(3, 1), "loose mass"), std::out_of_range);
+  const std::string why = "loose_mass = 0.02, walls at -0.4 and 0.4, R = 0.8";
+  const Reason stands = reason(scene, "loose mass");
+  EXPECT_TRUE(stands.required);
+  EXPECT_TRUE(stands.why.starts_with(why + "; it stands, and |x| <= ")) << stands.why;
+  EXPECT_TRUE(stands.why.ends_with(" < 0.4 for all time: its walls are out of reach")) << stands.why;
+  scene.loose.velocity = 1e-4;
+  expect_reason(scene, "loose mass", true, why);
+  scene.loose.velocity = 0, scene.loose.place = 0.3;
+  expect_reason(scene, "loose mass", true, why);
+}
+
 TEST(Reasons, friction_is_named_if_a_scene_has_it_and_whether_it_lets_the_mass_go) {
   const auto rubbing = [](double friction, double level) {
     point::Problem scene = figure(3, 1);

@@ -55,11 +55,11 @@ TEST(Parameter, of_both_stops_sets_each_and_the_sign_of_a_distance_does_not_matt
   EXPECT_FALSE(Parameter("R").stands_for("stop_lower"));
 }
 
-TEST(Parameter, of_one_stop_or_the_load_breaks_symmetry) {
+TEST(Parameter, of_one_stop_or_a_load_breaks_symmetry) {
   for (const Parameter parameter : all_parameters) {
     const std::string key(parameter.key());
     const bool is_of_one = key.ends_with("_lower") || key.ends_with("_upper");
-    EXPECT_EQ(parameter.keeps_symmetry(), !is_of_one && key != "load") << key;
+    EXPECT_EQ(parameter.keeps_symmetry(), !is_of_one && key != "load" && key != "loose_load") << key;
   }
 }
 

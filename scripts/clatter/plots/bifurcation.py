@@ -53,8 +53,8 @@ def impact_diagram(members, axes):
         output = member.output
         along = np.repeat(output.values(axis), output.values("impact_count"))
         sides, before = output.values("impact_stop"), output.values("impact_v_before")
-        for side, color, title in ((-1, BLUE, "lower stop"), (1, VERMILION, "upper stop")):
-            hit = sides == side
+        for side, color in ((-1, BLUE), (1, VERMILION)):
+            hit, title = sides == side, output.stop_name(side)
             if several:
                 color, title = colour_of(place), member.title if side < 0 else None
             if hit.any():

@@ -19,6 +19,8 @@ MANY = 2000  # markers from which on they are an image in vector formats
 SHARED = {  # the label of results in one panel; alone each has its own
     frozenset({"x_min", "x_max"}): r"displacement $x$",
     frozenset({"v_min", "v_max"}): "velocity $x$\N{PRIME}",
+    frozenset({"y_min", "y_max"}): "displacement $y$ of the loose mass",
+    frozenset({"z_min", "z_max"}): "place in the housing $z$",
     frozenset({"v_before", "v_after"}): "velocity at impact $x$\N{PRIME}",
     frozenset({"work_in", "loss_damping", "loss_friction"}): "energy in the observed time",
 }
@@ -190,8 +192,11 @@ def label_of(output, group):
     names, first = list(dict.fromkeys(result for result, _, _ in group)), group[0][0]
     shared = next((words for words in SHARED if len(names) > 1 and set(names) <= words), None)
     if shared:
-        words = with_unit(output, SHARED[shared], *names)
-        return in_frame(output, first, words) if first[:2] in ("x_", "v_") and "impact" not in words else words
+        words = (
+            SHARED[shared].replace("$x$", "$z$") if first == "v_before" and output.has_loose_mass else SHARED[shared]
+        )
+        words = with_unit(output, words, *names)
+        return in_frame(output, first, words) if first[:2] in ("x_", "v_", "y_") and "impact" not in words else words
     title = group[0][2]
     is_part = len(group) == 1 and group[0][1] is not None
     words, frame = label(output, first), f", {output[first].frame}"
@@ -243,6 +248,16 @@ def scalar_parts(output, name):
 def component_names(output, variable):
     """The name of each value of a result of a single point, None if it is of a stop that isn't there."""
     if variable.dims == ("stop",):
-        names = ((side, ", lower stop" if side < 0 else ", upper stop") for side in output.values("stop"))
+        names = ((side, f", {output.stop_name(side)}") for side in output.values("stop"))
         return [words if output.has_stop(side) else None for side, words in names]
-    return [", larger modulus", ", smaller modulus"] if variable.dims == ("multiplier",) else [""]
+    if variable.dims == ("multiplier",):
+        numbers = output.values("multiplier")
+        return [f", {modulus_name(int(number), len(numbers))}" for number in numbers]
+    return [""]
+
+
+def modulus_name(number, count):
+    """A multiplier by its place in the order of moduli, 1 for the largest."""
+    if count == 2:
+        return "larger modulus" if number == 1 else "smaller modulus"
+    return ("largest", "second", "third", "smallest")[number - 1] + " modulus"

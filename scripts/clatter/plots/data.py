@@ -268,9 +268,26 @@ class Output:
             return 1 / float(self.parameter("frequency", 1.0)[index])
         return 2 * np.pi / float(self.parameter("nu", 1.0)[index])
 
+    @property
+    def has_loose_mass(self):
+        """Whether the main mass carries a loose one, on whose walls the impacts are."""
+        return "loose_mass" in self.scene or self.swept("loose_mass")
+
+    def walls(self):
+        """Lower and upper wall of the loose mass in its housing at every point; infinite if there is none."""
+        if "loose_gap" in self.scene or self.swept("loose_gap"):
+            gap = self.parameter("loose_gap")
+            return -gap, gap
+        return self.parameter("loose_lower", -np.inf), self.parameter("loose_upper", np.inf)
+
     def has_stop(self, side):
-        """Whether any point has a stop on this side: -1 lower, 1 upper."""
-        return bool(np.isfinite(self.stops()[0 if side < 0 else 1]).any())
+        """Whether any point has a stop, or a wall of a loose mass, on this side: -1 lower, 1 upper."""
+        places = self.walls() if self.has_loose_mass else self.stops()
+        return bool(np.isfinite(places[0 if side < 0 else 1]).any())
+
+    def stop_name(self, side):
+        """The stop, or the wall of a loose mass, on a side: -1 lower, 1 upper."""
+        return f"{'lower' if side < 0 else 'upper'} {'wall' if self.has_loose_mass else 'stop'}"
 
     def impacts(self, index):
         """Times, stops, velocities before and after of one point's observed impacts."""

@@ -16,9 +16,10 @@ from .attractors import (
     value_points,
 )
 from .bifurcation import impact_diagram, poincare, section_diagram
-from .curves import curves, scalar_parts, scalars, spectrum
+from .curves import curves, modulus_name, scalar_parts, scalars, spectrum
 from .data import FIRST_FAILURE, PHASE
 from .empty import empty_panel, empty_results, why_empty
+from .housing import both_masses, housing_plane
 from .impact_phases import phases_panel
 from .maps import Grid, kind_map, quantity, regime_map, value_map
 from .motion import chosen_points, impact_log, phase_plane, time_history
@@ -38,6 +39,8 @@ BOOKKEEPING = (
 TOGETHER = (
     ("x_min", "x_max"),
     ("v_min", "v_max"),
+    ("y_min", "y_max"),
+    ("z_min", "z_max"),
     ("v_before", "v_after"),
     ("work_in", "loss_damping", "loss_friction"),
 )  # results that share a panel
@@ -51,6 +54,10 @@ ORDER = (
     "x_max",
     "v_min",
     "v_max",
+    "y_min",
+    "y_max",
+    "z_min",
+    "z_max",
     "symmetric",
     "period_ratio",
     "period",
@@ -136,13 +143,17 @@ def motion_panels(output, drawn):
 
     def history(quantity):
         def draw(figure, axes):
-            time_history(output, quantity, points, axes)
-            if named:
+            if output.has_loose_mass:
+                both_masses(output, quantity, points, axes)
+            else:
+                time_history(output, quantity, points, axes)
+            if named or output.has_loose_mass:
                 legend_above(axes, columns=3)
 
         return draw
 
-    panels = [history("x"), lambda figure, axes: phase_plane(output, points, axes), history("v")]
+    plane = housing_plane if output.has_loose_mass else phase_plane
+    panels = [history("x"), lambda figure, axes: plane(output, points, axes), history("v")]
     if "impact_count" in output and not named:
         panels.append(lambda figure, axes: impact_log(output, points[0][0], axes))
     return panels
@@ -258,9 +269,9 @@ def component_name(output, name, part):
     dimension = output[name].dims[-1]
     value = output.values(dimension)[part]
     if dimension == "stop":
-        return "lower stop" if value < 0 else "upper stop"
+        return output.stop_name(value)
     if dimension == "multiplier":
-        return "larger modulus" if value == 1 else "smaller modulus"
+        return modulus_name(int(value), len(output.values(dimension)))
     return f"${'k' if dimension == 'harmonic' else dimension} = {number(float(value))}$"
 
 

@@ -11,7 +11,7 @@ from .scales import tidy_ticks
 from .style import BLUE, VERMILION, colour_of, legend_above
 
 QUARTERS = ("0", "π/2", "π", "3π/2", "2π")
-STOPS = ((-1, BLUE, "lower stop"), (1, VERMILION, "upper stop"))
+SIDES = ((-1, BLUE), (1, VERMILION))
 
 
 def phases_panel(members):
@@ -53,7 +53,8 @@ def by_name(axes, members):
     for place, member in enumerate(members):
         output = member.output
         phases, velocities, sides = (output.values(name) for name in (PHASE, velocity_of(output), "impact_stop"))
-        parts = STOPS if len(members) == 1 else ((0, colour_of(place), member.title),)
+        sides_of_one = [(side, colour, output.stop_name(side)) for side, colour in SIDES]
+        parts = sides_of_one if len(members) == 1 else ((0, colour_of(place), member.title),)
         for side, colour, title in parts:
             shown = np.isfinite(phases) & (sides == side if side else True)
             if shown.any():

@@ -14,7 +14,7 @@ def motion(output, index):
     """Time, displacement, velocity of one point, with both sides of every logged impact put in. A touch of a soft stop
     has one: its velocity goes on, and v_after is that of the separation, later."""
     tau, x, v = (output.values(name)[index] for name in ("tau", "x", "v"))
-    if "impact_count" not in output or output.is_absolute:  # impacts are relative
+    if "impact_count" not in output or output.is_absolute or output.has_loose_mass:  # impacts are relative
         return tau, x, v
     times, sides, before, after = output.impacts(index)
     position = np.where(sides < 0, *(stop[index] for stop in output.stops()))
@@ -70,7 +70,7 @@ def first_shown(output, index):
 
 def mark_impacts(output, index, draw, color):
     """The impacts of motion without a period, by draw(time, position, velocity before, style)."""
-    if "impact_count" not in output or output.is_absolute or not is_aperiodic(output, index):
+    if "impact_count" not in output or output.is_absolute or output.has_loose_mass or not is_aperiodic(output, index):
         return
     times, sides, before, _ = output.impacts(index)
     late = times >= first_shown(output, index)
@@ -134,7 +134,7 @@ def impact_log(output, index, axes, period=None):
         axes.axhline(0.0, color=STOP, lw=0.7)
     else:
         say_empty(axes, "no impacts")
-    for side, marker, color, title in ((-1, "v", BLUE, "lower stop"), (1, "^", VERMILION, "upper stop")):
+    for side, marker, color in ((-1, "v", BLUE), (1, "^", VERMILION)):
         hit = sides == side
         if hit.any():
             axes.vlines(times[hit], 0.0, before[hit], color=color, lw=1.0)
@@ -145,7 +145,7 @@ def impact_log(output, index, axes, period=None):
                 marker=marker,
                 ms=4.5 if len(times) < 40 else 3.0,
                 color=color,
-                label=title,
+                label=output.stop_name(side),
             )
     axes.margins(y=0.1)
     axes.set_xlim(begin, end if end is None or np.isfinite(end) else None)

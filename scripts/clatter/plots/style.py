@@ -165,15 +165,16 @@ def gathered(notes):
     reasons = [note.removeprefix(white) for note in notes if note.startswith(white)]
     others = [note for note in notes if not note.startswith(white)]
     for note in list(others):
-        if ", lower stop" in note and (twin := note.replace(", lower", ", upper")) in others:
-            others[others.index(note)] = note.replace(", lower stop", ", both stops")
+        of_lower = re.search(", lower (stop|wall)", note)
+        if of_lower and (twin := note.replace(", lower", ", upper")) in others:
+            others[others.index(note)] = note.replace(of_lower[0], f", both {of_lower[1]}s")
             others.remove(twin)
     return [*others, white + ", or ".join(reasons)] if reasons else others
 
 
 def constants(output, title, others=()):
     """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
-    nothing = ("phase", "load", "damping", "friction", "stop_amplitude", "base_amplitude", "stop_phase")
+    nothing = ("phase", "load", "loose_load", "damping", "friction", "stop_amplitude", "base_amplitude", "stop_phase")
     stiffnesses = ("stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
     hidden = {
         **dict.fromkeys(nothing, 0.0),
@@ -188,6 +189,7 @@ def constants(output, title, others=()):
     if not any(output.swept(key) or np.isfinite(float(output.scene.get(key, np.inf))) for key in stiffnesses):
         keys = [key for key in keys if not key.startswith("stop_damping")]  # of rigid stops
     absent = {key for key, side in (("R_lower", -1), ("R_upper", 1)) if not output.has_stop(side)}
+    absent |= {"R"} if output.has_loose_mass else set()
     values = {key: float(output.scene[key]) for key in keys if key not in absent}
     return [
         equation(output, key, value)

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "config/consistency.hpp"
+#include "config/placed.hpp"
+#include "config/suggestion.hpp"
+#include "config/text_file.hpp"
+
+namespace clatter::config {
+namespace {
+
+constexpr Parameter loose_mass("loose_mass");
+
+/// Refuses a setting beside a loose mass; `way_out` says how to mend it.
+[[noreturn]] void refuse(const SourceLocation& location, const std::string& what, const std::string& way_out) {
+  fail(location, what + " conflicts with 'loose_mass'; " + way_out);
+}
+
+/// Keys of a loose mass need the mass, and that needs a wall.
+void check_completeness(const Settings& settings) {
+  for (const Parameter parameter : all_parameters) {
+    const Setting* const given = parameter.is_loose() ? settings.given(parameter) : nullptr;
+    if (given == nullptr || settings.given(loose_mass) != nullptr) continue;
+    fail(given->key_location, in_quotes(given->key->name) + " without 'loose_mass'; give that, or leave it out");
+  }
+  const Setting* const mass = settings.given(loose_mass);
+  const auto lacks = [&](Parameter wall) {
+    const auto is_infinite = [](double value) { return std::isinf(value); };
+    return settings.given(wall) == nullptr || place_of(settings.given(wall), is_infinite) != nullptr;
+  };
+  if (mass == nullptr || settings.given("loose_gap") != nullptr || !lacks("loose_lower") || !lacks("loose_upper"))
+    return;
+  fail(mass->key_location,
+       "'loose_mass' without walls, so that it never strikes; give loose_gap, loose_lower or loose_upper");
+}
+
+/// The main mass has a spring, no stops and no friction, and nothing shakes but its base.
+void check_main_mass(const Settings& settings) {
+  const auto is_finite = [](double value) { return std::isfinite(value); };
+  for (const Parameter stop : std::array<Parameter, 4>{"xs", "gap", "stop_lower", "stop_upper"})
+    if (const SourceLocation* const place = place_of(settings.given(stop), is_finite))
+      refuse(*place, in_quotes(stop.key()), "leave it out: the walls of a loose mass are loose_lower and loose_upper");
+  for (const Parameter level : std::array<Parameter, 2>{"friction", "friction_static"})
+    if (const SourceLocation* const place = place_of_nonzero(settings.given(level)))
+      refuse(*place, in_quotes(level.key()), "leave out one of them");
+  if (const SourceLocation* const place = place_of_nonzero(settings.given("stop_amplitude")))
+    refuse(*place, "'stop_amplitude'", "give base_amplitude, whose base carries the spring");
+  if (const Setting* const start = settings.given("start_period"))
+    refuse(start->key_location, "'start_period'", "give x0 and v0 instead");
+  const Setting* const spring = settings.given("stiffness");
+  if (spring == nullptr && settings.is_si())
+    fail(settings.location_of_section("machine"), "'loose_mass' on a mass without a spring; give a stiffness > 0");
+  if (const SourceLocation* const place = place_of(spring, [](double value) { return !(value > 0); }))
+    refuse(*place, "a stiffness that is not above 0", "give a spring, since the main mass has no stops");
+}
+
+/// Whether a setting drives the mass at every point.
+bool drives(const Setting* amplitude) {
+  return amplitude != nullptr && std::ranges::none_of(amplitude->numbers(), [](double value) { return value == 0; });
+}
+
+/// Steady motion and sections are those of a force.
+void check_force(const Settings& settings) {
+  const Setting* const force = settings.given(settings.is_si() ? Parameter("force") : Parameter("f"));
+  if (drives(force) || drives(settings.given("base_amplitude"))) return;
+  const std::string key = settings.is_si() ? "force" : "f";
+  const SourceLocation* const zero = place_of(force, [](double value) { return value == 0; });
+  const SourceLocation& place = zero != nullptr ? *zero : settings.given(loose_mass)->key_location;
+  if (settings.text("time", "mode") == "steady")
+    refuse(place, "steady motion without a force",
+           "give " + key + " or base_amplitude, or mode = \"transient\" and a duration in [time]");
+  if (const Setting* const section = settings.find("observe", "section");
+      section != nullptr && settings.integer("observe", "section") > 0)
+    refuse(section->key_location, "a section without a force", "give " + key + ", or observe a trajectory");
+}
+
+/// Commands and keys that don't know a loose mass.
+void check_uses(const Settings& settings) {
+  const auto refuse_key = [&](std::string_view section, std::string_view name, const std::string& way_out) {
+    refuse(settings.find(section, name)->key_location, in_quotes(name), way_out);
+  };
+  if (settings.flag("observe", "attractor"))
+    refuse_key("observe", "attractor", "leave it out, and observe word or section");
+  if (!named_parameters(settings, "observe", "sensitivity").empty())
+    refuse_key("observe", "sensitivity", "leave it out, and vary a key in [sweep]");
+  if (!without_blanks(settings.text("sweep", "follow")).empty())
+    refuse_key("sweep", "follow", "leave it out: every point starts from x0, v0, loose_x0 and loose_v0");
+  if (settings.text("integrator", "method") != "exact")
+    refuse_key("integrator", "method", "take \"exact\", the only one that has it");
+  if (const Setting* const along = settings.find("branch", "along"))
+    refuse(along->key_location, "[branch]", "leave the section out, and vary the key in [sweep]");
+}
+
+}  // namespace
+
+void check_loose_mass(const Settings& settings) {
+  check_completeness(settings);
+  if (settings.given(loose_mass) == nullptr) return;
+  check_main_mass(settings);
+  check_force(settings);
+  check_uses(settings);
+}
+
+void check_walls_and_start(const Settings& settings, const AxisGroups& groups) {
+  if (settings.given(loose_mass) == nullptr) return;
+  const bool symmetric = settings.given("loose_gap") != nullptr;
+  const Placed gap = symmetric ? placed(settings, groups, "loose_gap") : Placed{};
+  const Placed lower = symmetric ? mirrored(gap, -1, "loose_gap") : placed(settings, groups, "loose_lower"),
+               upper = symmetric ? mirrored(gap, 1, "loose_gap") : placed(settings, groups, "loose_upper");
+  if (!symmetric) compare(lower, upper, is_below, "loose_lower < loose_upper");
+  const Placed start = placed(settings, groups, "loose_x0");
+  const std::string rule = "a start between the walls, " + lower.name + " <= loose_x0 <= " + upper.name;
+  compare(lower, start, is_not_above, rule);
+  compare(start, upper, is_not_above, rule);
+}
+
+bool has_loose_mass(const Settings& settings) { return settings.given(loose_mass) != nullptr; }
+
+}  // namespace clatter::config

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "motion/first_crossing.hpp"
+
+namespace clatter::motion {
+
+/// The force with which a wall presses a loose mass that moves with the main mass, over the loose mass: the difference
+/// of its own acceleration and x'' (eq. 72). It is a margin in the acceleration, so bounds go two derivatives higher
+/// than those of displacements.
+template <class Number, Effects E>
+class PullRule {
+ public:
+  static constexpr std::size_t count = 1;
+  static constexpr bool alike = true;
+
+  PullRule(const Arc<Number, E>& arc, Side wall, const Number& load)
+      : arc_(arc),
+        load_(load),
+        sign_(sign_of(wall)),
+        bounds_(derivative_bounds<3>(arc.constants().equation(), arc.constants().natural)) {}
+
+  [[nodiscard]] Number of(std::size_t, const Motion<Number>& m) const { return sign_ * (load_ - m.a); }
+  [[nodiscard]] Number slope(std::size_t, const Motion<Number>& m) const { return -sign_ * arc_.constants().jerk(m); }
+  [[nodiscard]] static bool vanishes() { return false; }
+
+  /// Whether no acceleration that the mass can have lets the loose mass go.
+  [[nodiscard]] bool stays_clear(const Motion<Number>& here, const Number& time) const {
+    using std::abs;
+    const auto& c = arc_.constants();
+    const Number far = reach(c, here, time);
+    const Number fast = c.nu * c.response.amplitude + c.natural * (far - c.response.amplitude);
+    return abs(c.f) + c.k * far + 2 * c.h * fast < sign_ * load_;
+  }
+  [[nodiscard]] Number width(std::size_t, const Motion<Number>& here) const {
+    using std::abs;
+    const auto& c = arc_.constants();
+    return abs(here.a) + abs(c.jerk(here)) / c.rate + abs(c.f);
+  }
+  [[nodiscard]] Number error(std::size_t, const Motion<Number>& here, const Number& step) const {
+    return hermite_error(sixth_bound(arc_.constants(), bounds_, here, step, 2));
+  }
+  [[nodiscard]] Bernstein<Number> change(std::size_t, const Motion<Number>& here, const Motion<Number>& there,
+                                         const Number& step) const {
+    const auto [jerk0, snap0] = higher(here);
+    const auto [jerk1, snap1] = higher(there);
+    return hermite(HermiteData<Number>::over(step, {Number(0), -sign_ * jerk0, -sign_ * snap0,
+                                                    -sign_ * (there.a - here.a), -sign_ * jerk1, -sign_ * snap1}));
+  }
+  [[nodiscard]] static const Number& signed_change(std::size_t, const Number& change) { return change; }
+
+  /// A step a little longer than the margin would take to 0 at its present slope; at most half of it.
+  [[nodiscard]] Number next_step(std::size_t i, const Motion<Number>& here, const Number& step) const {
+    using std::clamp;
+    const Number left = of(i, here), falls = -slope(i, here);
+    if (!(left > 0 && falls > 0)) return step / 4;
+    return clamp(Number(2 * left / falls), Number(step / 16), Number(step / 2));
+  }
+  /// One Newton correction takes out the rounding that a long step leaves.
+  [[nodiscard]] Crossing<Number> refined(std::size_t i, const Motion<Number>&, Motion<Number> m, Number elapsed) const {
+    using std::abs;
+    const Number left = of(i, m), rate = slope(i, m);
+    if (rate < 0 && abs(left) <= -rate * abs(elapsed) * Number(1e-6)) {
+      const Number more = -left / rate;
+      elapsed += more, m.offset += m.v * more, m.x += m.v * more, m.v += m.a * more;
+    }
+    return at(i, elapsed, m);
+  }
+  [[nodiscard]] Crossing<Number> at(std::size_t i, const Number& elapsed, Motion<Number> m) const {
+    if (i < count) m.a = load_;
+    return {i, Side::none, elapsed, m};
+  }
+  [[nodiscard]] Crossing<Number> at_horizon(const Number& horizon, const Motion<Number>& there) const {
+    return at(count, horizon, there);
+  }
+
+ private:
+  /// Third and fourth derivative of the displacement.
+  [[nodiscard]] std::array<Number, 2> higher(const Motion<Number>& m) const {
+    const auto d = arc_.constants().equation().derivatives(m.v, m.a, m.sine, m.cosine);
+    return {d.d3, d.d4};
+  }
+
+  const Arc<Number, E>& arc_;
+  Number load_, sign_;
+  DerivativeBounds<Number, 3> bounds_;
+};
+
+/// The end of a time in which a wall presses a loose mass: where it would have to pull, or the horizon.
+template <class Number, Effects E>
+[[nodiscard]] Crossing<Number> end_of_press(const Arc<Number, E>& arc, Side wall, const Number& load,
+                                            const Number& horizon) {
+  const PullRule<Number, E> rule(arc, wall, load);
+  return CrossingSearch<Arc<Number, E>, PullRule<Number, E>>(arc, rule, horizon).run();
+}
+
+}  // namespace clatter::motion

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <utility>
+#include <variant>
+
+#include "motion/arc_constants.hpp"
+#include "motion/state.hpp"
+#include "scene/scene.hpp"
+
+namespace clatter::motion {
+
+/// Impacts between a loose mass and the main mass (eq. 70): both momenta change by the same impulse.
+template <class Number>
+struct WallRule {
+  Number ratio;  ///< eps
+  Restitution<Number> law;
+
+  /// The share of a change of z' that the main mass takes: x' changes by this times (1 + R) z'.
+  [[nodiscard]] Number share() const { return ratio / (1 + ratio); }
+  /// x' after an impact at which z' is w.
+  [[nodiscard]] Number main_after(const Number& v, const Number& w) const { return v - share() * law.jump(w); }
+  /// x' once the two move as one.
+  [[nodiscard]] Number main_with(const Number& v, const Number& w) const { return v + share() * w; }
+  /// The energy over the main mass that is lost if z' changes from one speed to another.
+  [[nodiscard]] Number loss(const Number& before, const Number& after) const {
+    return share() * (before - after) * (before + after) / 2;
+  }
+};
+
+/// The oscillator of the main mass with a loose mass that a wall presses: (1 + eps) x'' + 2 h x' + k x = f sin(theta) +
+/// load + eps y'' (eq. 71). Its damping is of a class of its own.
+template <class Number>
+class CarryingOscillator {
+ public:
+  template <Effects E>
+  CarryingOscillator(const ArcConstants<Number, E>& free, const LooseMass& loose) : of_(of(free, loose)) {}
+
+  /// Calls `function(constants)` with those of the two masses as one.
+  template <class Function>
+  decltype(auto) with_constants(Function&& function) const {
+    return std::visit(std::forward<Function>(function), of_);
+  }
+
+ private:
+  template <Damping damping, Forcing forcing>
+  using Of = ArcConstants<Number, Effects{.damping = damping, .forcing = forcing, .stiffness = true}>;
+  using Any = std::variant<Of<Damping::light, Forcing::secular>, Of<Damping::heavy, Forcing::regular>>;
+
+  template <Effects E>
+  [[nodiscard]] static Any of(const ArcConstants<Number, E>& free, const LooseMass& loose) {
+    const Number eps(loose.ratio), both = 1 + eps;
+    const auto make = [&]<class Constants>() -> Any {
+      Constants constants = Constants::of(free.h / both, free.f / both, free.nu,
+                                          (free.load + eps * Number(loose.load)) / both, free.k / both);
+      constants.carried = eps, constants.period = free.period;
+      return constants;
+    };
+    const double h = static_cast<double>(free.h / both), k = static_cast<double>(free.k / both);
+    return h * h < k ? make.template operator()<Of<Damping::light, Forcing::secular>>()
+                     : make.template operator()<Of<Damping::heavy, Forcing::regular>>();
+  }
+
+  Any of_;
+};
+
+/// The housing of a loose mass.
+template <class Number>
+struct Walls {
+  template <Effects E>
+  Walls(const ArcConstants<Number, E>& free, const LooseMass& loose)
+      : rule{Number(loose.ratio), {Number(loose.restitution)}},
+        load(loose.load),
+        places{.lower = loose.lower, .upper = loose.upper},
+        carrying(free, loose) {}
+
+  [[nodiscard]] Number place(Side side) const { return Number(side == Side::upper ? places.upper : places.lower); }
+
+  WallRule<Number> rule;
+  Number load;   ///< y''
+  Stops places;  ///< of the walls
+  CarryingOscillator<Number> carrying;
+};
+
+/// In place of it without a loose mass.
+struct NoWalls {
+  template <class Constants>
+  NoWalls(const Constants&, const LooseMass&) {}
+};
+
+/// The place of a loose mass in its housing, z, and z'.
+template <class Number>
+struct PlaceInHousing {
+  Number z, w;
+};
+template <class Number>
+[[nodiscard]] PlaceInHousing<Number> place_in_housing(const State<Number>& state, const LooseMass& loose) {
+  const LooseState<Number>& own = state.loose;
+  if (own.wall == Side::none) return {own.place - state.x, own.speed - state.v};
+  return {Number(own.wall == Side::upper ? loose.upper : loose.lower) + own.place, own.speed};
+}
+
+/// The start of a loose mass, from that of the main mass.
+template <class Number>
+[[nodiscard]] LooseState<Number> loose_start(const Scene& scene) {
+  const LooseMass& loose = scene.loose;
+  for (const Side side : {Side::lower, Side::upper})
+    if (loose.place == (side == Side::upper ? loose.upper : loose.lower))
+      return {side, Number(0), Number(loose.velocity)};
+  return {Side::none, Number(scene.start.displacement) + Number(loose.place),
+          Number(scene.start.velocity) + Number(loose.velocity)};
+}
+
+}  // namespace clatter::motion

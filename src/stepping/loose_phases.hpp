@@ -1,0 +1,186 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+#include "motion/pull_rule.hpp"
+#include "motion/relative_arc.hpp"
+#include "motion/walls.hpp"
+#include "stepping/soft_phases.hpp"
+
+namespace clatter::stepping {
+
+/// The phases of a main mass that carries a loose one, which flies between the walls of its housing, or is pressed onto
+/// one of them.
+template <class Method, class N, Effects E>
+class LoosePhases : public SoftPhases<Method, N, E> {
+  using Base = SoftPhases<Method, N, E>;
+
+ public:
+  using Number = N;
+
+  LoosePhases(const Scene& scene, const Stops& in_reach, const Limits& limits)
+      : Base(scene, in_reach, limits), walls_(this->constants(), scene.loose) {}
+
+ protected:
+  /// Runs one phase up to its event, or to `end`.
+  template <class Observer>
+  [[nodiscard]] Outcome run_loose(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                  Observer& observer) {
+    if (!state.loose.pressed && is_held(state)) press(state, state.loose.wall, Number(0), origin, observer);
+    return state.loose.pressed ? run_pressed(state, end, origin, observer)
+                               : run_in_housing(state, end, origin, observer);
+  }
+
+ private:
+  /// The acceleration z'' with which a loose mass is driven into a wall that it is on.
+  [[nodiscard]] Number into(Side side, const motion::State<Number>& state) const {
+    return sign_of(side) * (walls_.load - this->motion(this->constants(), state, walls_.load).a);
+  }
+  /// Whether it lies on a wall that presses it.
+  [[nodiscard]] bool is_held(const motion::State<Number>& state) const {
+    const motion::LooseState<Number>& loose = state.loose;
+    if (loose.wall == Side::none || loose.place != 0 || loose.speed != 0 || state.released) return false;
+    return into(loose.wall, state) > 0;
+  }
+  /// Whether nothing can tell the rest of a chatter: a rebound with the speed w changes no digit of the motion, or
+  /// doesn't let time go on.
+  [[nodiscard]] bool is_faded(const motion::State<Number>& state, const Number& w, const Number& pressing) const {
+    using std::abs;
+    if (!(pressing > 0)) return false;
+    if (w == 0) return true;
+    if (!(walls_.rule.law.R < 1)) return false;
+    const auto& c = this->constants();
+    const Number motion = abs(state.v) + c.natural * abs(state.x - c.equilibrium);
+    return w <= epsilon<Number>() * motion || 2 * w <= pressing * epsilon<Number>() * this->period();
+  }
+
+  template <class Observer>
+  void press(motion::State<Number>& state, Side side, const Number& w, std::int64_t origin, Observer& observer) const {
+    const Number before = state.v;
+    state.v = walls_.rule.main_with(state.v, w);
+    state.loose = {side, Number(0), Number(0), true}, state.released = false;
+    if constexpr (requires { observer.press(motion::Press{}); })
+      observer.press(motion::Press{this->time(state, origin), side, static_cast<double>(w), static_cast<double>(before),
+                                   static_cast<double>(state.v), static_cast<double>(state.x)});
+  }
+
+  /// Moves on as one mass until the wall would have to pull.
+  template <class Observer>
+  [[nodiscard]] Outcome run_pressed(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                    Observer& observer) {
+    return walls_.carrying.with_constants([&](const auto& constants) {
+      const motion::Arc arc = carried_arc(constants, state);
+      const auto crossing = end_of_press(arc, state.loose.wall, walls_.load, horizon_of(state, end));
+      this->count_evaluations(crossing.evaluations);
+      if (!crossing.resolved) return this->outcome_at(crossing);
+      move_as_one(state, arc, crossing.elapsed, crossing.motion, end, origin, observer);
+      if (crossing.margin == 0) state.loose.pressed = false, state.released = true;
+      return Outcome::completed;
+    });
+  }
+  /// Holds the loose mass past an instant at which the force of its wall is zero to rounding, so its sign decides
+  /// nothing. After sqrt(epsilon) of a period it is clear of rounding.
+  template <class Observer>
+  void wait(motion::State<Number>& state, const Number& end, std::int64_t origin, Observer& observer) {
+    using std::min, std::sqrt;
+    const Number time = min(horizon_of(state, end), Number(sqrt(epsilon<Number>()) * this->period()));
+    press(state, state.loose.wall, Number(0), origin, observer);
+    walls_.carrying.with_constants([&](const auto& constants) {
+      const motion::Arc arc = carried_arc(constants, state);
+      move_as_one(state, arc, time, arc.at(time), end, origin, observer);
+    });
+    state.loose.pressed = false;
+  }
+
+  [[nodiscard]] Number horizon_of(const motion::State<Number>& state, const Number& end) const {
+    return (end - state.phase_turns) * this->period();
+  }
+  template <Effects Of>
+  [[nodiscard]] motion::Arc<Number, Of> carried_arc(const motion::ArcConstants<Number, Of>& constants,
+                                                    const motion::State<Number>& state) const {
+    return {constants, this->motion(constants, state), this->anchor(state)};
+  }
+  template <class A, class Observer>
+  void move_as_one(motion::State<Number>& state, const A& arc, const Number& elapsed,
+                   const motion::Motion<Number>& there, const Number& end, std::int64_t origin,
+                   Observer& observer) const {
+    const double begin = this->time(state, origin), length = static_cast<double>(elapsed);
+    const Side side = state.loose.wall;
+    observer.arc(arc, begin, length);
+    if constexpr (requires { observer.hold(arc, motion::Rest{}); })
+      observer.hold(arc, motion::Rest{begin, length, side, static_cast<double>(walls_.place(side)), true});
+    go_on(state, elapsed, there, end);
+  }
+  void go_on(motion::State<Number>& state, const Number& elapsed, const motion::Motion<Number>& there,
+             const Number& end) const {
+    const bool ends = elapsed == horizon_of(state, end);
+    this->pass(state, elapsed);
+    if (ends) state.phase_turns = end;
+    state.x = there.x, state.v = there.v, state.released = false;
+  }
+
+  /// Flies between the walls to the next impact.
+  template <class Observer>
+  [[nodiscard]] Outcome run_in_housing(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                       Observer& observer) {
+    const Number horizon = horizon_of(state, end);
+    const motion::Arc<Number, E.arc()> main(this->constants(), this->motion(this->constants(), state, walls_.load),
+                                            this->anchor(state));
+    const motion::RelativeArc<Number, E.arc()> arc(main, start_of(state), walls_.load);
+    const motion::Crossing<Number> contact = next_contact(arc, walls_.places, horizon);
+    this->count_evaluations(contact.evaluations);
+    if (!contact.resolved) return this->outcome_at(contact);
+    if (contact.side != Side::none && contact.elapsed == 0 && arc.start().v == 0) {
+      state.loose = {contact.side, Number(0), Number(0)};
+      wait(state, end, origin, observer);
+      return Outcome::completed;
+    }
+    const double begin = this->time(state, origin), length = static_cast<double>(contact.elapsed);
+    observer.arc(main, begin, length);
+    if constexpr (requires { observer.in_housing(arc, begin, length); }) observer.in_housing(arc, begin, length);
+    move_loose(state.loose, contact);
+    go_on(state, contact.elapsed, main.at(contact.elapsed), end);
+    if (contact.side == Side::none) return Outcome::completed;
+    return strike(state, contact.side, contact.motion.v, origin, observer);
+  }
+  [[nodiscard]] motion::RelativeStart<Number> start_of(const motion::State<Number>& state) const {
+    const motion::LooseState<Number>& loose = state.loose;
+    if (loose.wall == Side::none) return {Number(0), loose.place - state.x, loose.speed - state.v, loose.speed};
+    return {walls_.place(loose.wall), loose.place, loose.speed, loose.speed + state.v};
+  }
+  /// To the end of a flight.
+  void move_loose(motion::LooseState<Number>& loose, const motion::Crossing<Number>& contact) const {
+    if (contact.side != Side::none) {
+      loose = {contact.side, Number(0), contact.motion.v};
+    } else if (loose.wall != Side::none) {
+      loose.place = contact.motion.offset, loose.speed = contact.motion.v;
+    } else {
+      loose.place += (loose.speed + walls_.load * contact.elapsed / 2) * contact.elapsed;
+      loose.speed += walls_.load * contact.elapsed;
+    }
+  }
+
+  /// An impact on a wall, after which that may press the loose mass.
+  template <class Observer>
+  [[nodiscard]] Outcome strike(motion::State<Number>& state, Side side, const Number& w, std::int64_t origin,
+                               Observer& observer) {
+    if (!(sign_of(side) * w > 0)) return Outcome::completed;  // it touches
+    const Number before = state.v, after = walls_.rule.law.after(w);
+    state.v = walls_.rule.main_after(state.v, w);
+    state.loose = {side, Number(0), after};
+    if constexpr (requires { observer.strike(motion::Strike{}); })
+      observer.strike(motion::Strike{this->time(state, origin), side, static_cast<double>(w),
+                                     static_cast<double>(after), static_cast<double>(walls_.place(side)),
+                                     static_cast<double>(before), static_cast<double>(state.v),
+                                     static_cast<double>(state.x), static_cast<double>(state.phase_turns)});
+    if (is_faded(state, -sign_of(side) * after, into(side, state))) press(state, side, after, origin, observer);
+    return this->count_impact() ? Outcome::completed : Outcome::event_budget;
+  }
+
+  [[no_unique_address]] std::conditional_t<E.loose, motion::Walls<Number>, motion::NoWalls> walls_;
+};
+
+}  // namespace clatter::stepping

@@ -1,0 +1,82 @@
+"""What doesn't go with a loose mass, and wrong values of its keys: a sentence says what, where and what to do.
+
+Environment: CLATTER, the program.
+"""
+
+import re
+import unittest
+
+from command_line import CommandLine
+
+SCENE = "[scene]\nh = 0.02\nf = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_gap = 1.9\nloose_R = 0.6\n"
+MACHINE = '[machine]\nmass = "2 kg"\nstiffness = "8 N/mm"\nforce = "20 N"\nfrequency = "9 Hz"\nloose_mass = "50 g"\n'
+REMEDY = r"expected |leave |give |take |set |remove |use |write |certify motions without |did you mean"
+
+
+class Refusals(CommandLine):
+    def assert_told(self, text, keys, *command):
+        """Refused in one line that names the keys and says what to do."""
+        command = command or ("run",)
+        self.write("a.toml", text)
+        words = (command[0], "a.toml", "-o", "a.h5", *command[1:])
+        self.assert_refused(2, keys[0], *words)
+        said = self.clatter(*words).stderr
+        for key in keys:
+            self.assertIn(key, said)
+        self.assertRegex(said, REMEDY)
+
+    def test_what_does_not_know_it(self):
+        for key, value in {"attractor": "true", "sensitivity": '"nu"'}.items():
+            self.assert_told(f"{SCENE}[observe]\n{key} = {value}\n", ("loose_mass", key))
+        follow = SCENE.replace("nu = 1.3\n", "") + '[sweep]\nnu = "linspace(1, 2, 5)"\nfollow = "nu"\n'
+        self.assert_told(follow, ("loose_mass", "follow"))
+        for method in ("dopri5", "moreau"):
+            self.assert_told(f'{SCENE}[integrator]\nmethod = "{method}"\n', ("loose_mass", "method"))
+        along = f'{SCENE}[branch]\nalong = "nu"\nrange = [1, 2]\n'
+        self.assert_told(along, ("loose_mass", "branch"), "branch")
+
+    def test_commands_that_do_not_know_it(self):
+        self.write("a.toml", SCENE + "[observe]\nextrema = true\n")
+        self.assertEqual(self.clatter("run", "a.toml", "-o", "a.h5", "-q").returncode, 0)
+        for command in (("accuracy", "a.toml", "-o", "b.h5"), ("certify", "a.h5", "-o", "b.jsonl")):
+            self.assert_refused(2, "loose_mass", *command)
+            self.assertRegex(self.clatter(*command).stderr, REMEDY)
+
+    def test_what_the_main_mass_does_not_have_beside_it(self):
+        beside = {"xs": "2", "stop_lower": "-3", "stop_upper": "3", "friction": "0.1", "friction_static": "0.1"}
+        beside |= {"stop_amplitude": "0.1", "start_period": "3", "stiffness": "0"}
+        for key, value in beside.items():
+            with self.subTest(key=key):
+                self.assert_told(f"{SCENE}{key} = {value}\n", (key,))
+        self.assert_told(f'{MACHINE}loose_gap = "5 mm"\ngap = "9 mm"\n', ("'gap'", "loose_mass"))
+
+    def test_what_it_needs(self):
+        self.assert_told(SCENE.replace("loose_gap = 1.9\n", ""), ("loose_mass", "loose_gap"))
+        without = SCENE.replace("loose_mass = 0.05\n", "")
+        for key in ("loose_gap", "loose_R"):
+            lines = [line for line in without.splitlines() if key in line or "loose" not in line]
+            self.assert_told("\n".join(lines) + "\n", (key, "loose_mass"))
+        self.assert_told(SCENE.replace("0.3", "0"), ("loose_mass", "transient"))
+
+    def test_wrong_values(self):
+        wrong = {"loose_mass": ("0", "-0.1", "nan", "inf"), "loose_gap": ("0", "-1", "inf")}
+        wrong |= {"loose_R": ("1.1", "-0.1"), "loose_x0": ("2", "-1.91", "nan"), "loose_load": ("inf",)}
+        wrong |= {"loose_v0": ("nan",), "loose_lower": ("-1",), "loose_mas": ("1",)}
+        for key, values in wrong.items():
+            lines = "".join(line + "\n" for line in SCENE.splitlines() if not line.startswith(f"{key} "))
+            for value in values:
+                with self.subTest(key=key, value=value):
+                    self.assert_told(f"{lines}{key} = {value}\n", (key,))
+        walls = SCENE.replace("loose_gap = 1.9", "loose_lower = 1\nloose_upper = -1")
+        self.assert_told(walls, ("loose_lower", "loose_upper"))
+        self.assert_told(walls.replace("-1", "1"), ("loose_lower", "loose_upper"))
+
+    def test_wrong_units(self):
+        for key, value in {"loose_gap": "5 kg", "loose_load": "3 N", "loose_v0": "3 m"}.items():
+            gap = "" if key == "loose_gap" else 'loose_gap = "5 mm"\n'
+            self.assert_told(f'{MACHINE}{gap}{key} = "{value}"\n', (re.sub(r"^\d+ ", "", value),))
+        self.assert_told(MACHINE.replace("50 g", "50 mm") + 'loose_gap = "5 mm"\n', ("'mm'", "mass"))
+
+
+if __name__ == "__main__":
+    unittest.main()
