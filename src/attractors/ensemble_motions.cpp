@@ -20,15 +20,12 @@ double turns_to_phase_zero(const point::Problem& problem) {
 
 /// Whether a point can have ended so: what was read from a file may be anything.
 bool is_possible(const point::Problem& problem, const Ending& ending) {
-  const auto [x, v] = ending.state;
-  const Stops stops = rigid_ones(problem.stops);  // a soft one may be passed
   return ending.periods >= 0 && ending.periods <= static_cast<double>(steady::RepeatFinder::longest) &&
-         ending.periods == std::floor(ending.periods) && std::isfinite(v) && std::isfinite(x) && x >= stops.lower &&
-         x <= stops.upper;
+         ending.periods == std::floor(ending.periods) && is_inside(problem, ending.state);
 }
 
 /// A mass that friction holds for good.
-Motion stuck(const point::Problem& problem, const PhasePoint& state) {
+Motion stuck(const point::Problem& problem, const SectionState& state) {
   Motion motion{.periodic = standstill(problem, state.x), .state = state, .sticks = true};
   motion.periodic->word = observables::ImpactWord::stuck;
   if (problem.oscillator.forcing != 0) motion.periodic->regime = "0/1";
@@ -39,8 +36,8 @@ Motion stuck(const point::Problem& problem, const PhasePoint& state) {
 
 std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& problem, const Ending& ending) {
   if (!is_possible(problem, ending)) return std::nullopt;
-  PhasePoint state = ending.state;
-  if (state.v == 0 && sticks_for_good(problem, state.x)) return sticking_ ? sticking_ : add(stuck(problem, state));
+  SectionState state = ending.state;
+  if (state.v == 0 && sticks_for_good(problem, state.x)) return band_ ? band_ : add(stuck(problem, state));
   if (problem.oscillator.forcing == 0) {
     if (const auto known = passing(state)) return known;
     return add({.periodic = standstill(problem, state.x), .state = state});
@@ -69,24 +66,25 @@ void EnsembleMotions::restore(const point::Problem& problem, const Ending& endin
   add(std::move(motion));
 }
 
-std::optional<std::size_t> EnsembleMotions::passing(const PhasePoint& state) const {
+std::optional<std::size_t> EnsembleMotions::passing(const SectionState& state) const {
   const double reach = same_motion * largest_;
   for (auto near = by_x_.lower_bound(state.x - reach); near != by_x_.end() && near->first <= state.x + reach; ++near)
     if (motions_[near->second].periodic->passes(state)) return near->second;
   return std::nullopt;
 }
 
-std::optional<std::size_t> EnsembleMotions::periodic_of(const point::Problem& problem, const PhasePoint& state,
+std::optional<std::size_t> EnsembleMotions::periodic_of(const point::Problem& problem, const SectionState& state,
                                                         std::size_t periods) {
-  if (const auto known = passing(after_impact(problem.stops, state, largest_))) return known;
+  if (const auto known = passing(after_impact(problem, state, largest_))) return known;
   std::optional<PeriodicMotion> motion = periodic_motion(problem, state, periods);
   if (!motion || !motion->contracts) return std::nullopt;
-  const PhasePoint first = motion->cycle.front();
+  const SectionState first = motion->cycle.front();
+  if (motion->floats && band_) return band_;
   if (const auto known = passing(first)) return known;
   return add({.periodic = std::move(motion), .state = first});
 }
 
-std::optional<std::size_t> EnsembleMotions::visiting(std::span<const PhasePoint> states) const {
+std::optional<std::size_t> EnsembleMotions::visiting(std::span<const SectionState> states) const {
   for (std::size_t i = 0; i < motions_.size(); ++i)
     if (!motions_[i].periodic && motions_[i].cells.are_visited_by(states)) return i;
   return std::nullopt;
@@ -94,16 +92,16 @@ std::optional<std::size_t> EnsembleMotions::visiting(std::span<const PhasePoint>
 
 /// A short look tells most motions from those that are known, a long one those that stay in a part of the cells for
 /// long.
-std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& problem, const PhasePoint& state) {
+std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& problem, const SectionState& state) {
   const bool has_known = std::ranges::any_of(motions_, [](const Motion& motion) { return !motion.periodic; });
   if (has_known) {
     const auto sections = run_sections(started(problem, state, 0.0), VisitedCells::short_look);
     if (!sections) return std::nullopt;
     if (const auto known = visiting(sections->states)) return known;
   }
-  std::vector<PhasePoint> states;
+  std::vector<SectionState> states;
   double log_area = 0.0;
-  PhasePoint last = state;
+  SectionState last = state;
   bool may_repeat = true;
   while (states.size() < (has_known ? longest_look_ : VisitedCells::long_look)) {
     const auto sections = run_sections(started(problem, last, 0.0), VisitedCells::at_once);
@@ -124,7 +122,7 @@ std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& p
 
 /// Whether a motion without a period visits the cells of its mirror image.
 bool EnsembleMotions::visits_mirror(const point::Problem& problem, const Motion& motion) const {
-  std::optional<PhasePoint> last = mirrored(problem, motion.state);
+  std::optional<SectionState> last = mirrored(problem, motion.state);
   for (std::size_t look = 0; last && look < longest_look_; look += VisitedCells::at_once) {
     const auto sections = run_sections(started(problem, *last, 0.0), VisitedCells::at_once);
     if (!sections || sections->repeats_after > 0) return false;
@@ -136,11 +134,11 @@ bool EnsembleMotions::visits_mirror(const point::Problem& problem, const Motion&
 
 std::size_t EnsembleMotions::add(Motion motion) {
   const std::size_t index = motions_.size();
-  if (motion.sticks) {
-    sticking_ = index;
+  if (motion.is_band()) {
+    band_ = index;
   } else if (motion.periodic) {
     largest_ = std::max(largest_, motion.periodic->size);
-    for (const PhasePoint& state : motion.periodic->cycle) by_x_.emplace(state.x, index);
+    for (const SectionState& state : motion.periodic->cycle) by_x_.emplace(state.x, index);
   }
   motions_.push_back(std::move(motion));
   return index;

@@ -13,18 +13,20 @@ namespace clatter::attractors {
 
 /// The state in which a point of a sweep ended, at the forcing phase of its start.
 struct Ending {
-  PhasePoint state{};
+  SectionState state{};
   double periods = 0.0;  ///< forcing periods after which the motion repeats; 0: none; NaN: failed, or not known
 };
 
 /// A motion that points with equal parameters end in.
 struct Motion {
   std::optional<PeriodicMotion> periodic{};  ///< empty: it has no period
-  PhasePoint state{};                        ///< at forcing phase 0
+  SectionState state{};                      ///< at forcing phase 0
   VisitedCells cells{};                      ///< of motion without a period
   bool symmetric = false;                    ///< motion without a period visits the cells of its mirror image
   bool sticks = false;                       ///< dry friction holds the mass for good, here or at any place of a band
 
+  /// Whether it goes on alike in a whole band of states, which are one motion.
+  [[nodiscard]] bool is_band() const { return sticks || (periodic && periodic->floats); }
   [[nodiscard]] std::size_t periods() const { return periodic ? periodic->cycle.size() : 0; }
 };
 
@@ -43,17 +45,17 @@ class EnsembleMotions {
   void restore(const point::Problem& problem, const Ending& motion);
 
   /// The periodic motion that passes a state at forcing phase 0.
-  [[nodiscard]] std::optional<std::size_t> passing(const PhasePoint& state) const;
-  /// The mass that friction holds for good.
-  [[nodiscard]] std::optional<std::size_t> sticking() const { return sticking_; }
+  [[nodiscard]] std::optional<std::size_t> passing(const SectionState& state) const;
+  /// The mass that friction holds for good, or the loose mass that no wall meets.
+  [[nodiscard]] std::optional<std::size_t> band() const { return band_; }
   /// The motion without a period in whose cells most of some successive states lie.
-  [[nodiscard]] std::optional<std::size_t> visiting(std::span<const PhasePoint> states) const;
+  [[nodiscard]] std::optional<std::size_t> visiting(std::span<const SectionState> states) const;
 
   [[nodiscard]] const std::vector<Motion>& motions() const { return motions_; }
 
  private:
-  std::optional<std::size_t> periodic_of(const point::Problem& problem, const PhasePoint& state, std::size_t periods);
-  std::optional<std::size_t> aperiodic_of(const point::Problem& problem, const PhasePoint& state);
+  std::optional<std::size_t> periodic_of(const point::Problem& problem, const SectionState& state, std::size_t periods);
+  std::optional<std::size_t> aperiodic_of(const point::Problem& problem, const SectionState& state);
   std::size_t add(Motion motion);
 
   [[nodiscard]] bool visits_mirror(const point::Problem& problem, const Motion& motion) const;
@@ -62,7 +64,7 @@ class EnsembleMotions {
   std::vector<Motion> motions_;
   std::multimap<double, std::size_t> by_x_;  ///< of every state of every cycle, the index of the motion
   double largest_ = 0.0;                     ///< size of the periodic motions
-  std::optional<std::size_t> sticking_{};    ///< index of the motion
+  std::optional<std::size_t> band_{};        ///< index of the motion
 };
 
 }  // namespace clatter::attractors

@@ -1,15 +1,60 @@
 #include "attractors/exact_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "observables/multipliers.hpp"
 #include "point/exact_motion.hpp"
+#include "steady/contraction.hpp"
 
 namespace clatter::attractors {
 namespace {
 
 using motion::Event;
+
+/// Sections of motion that may repeat, as the search for steady motion takes them.
+class Repeats {
+ public:
+  Repeats(const point::Problem& problem)
+      : has_loose_mass_(has_loose_mass(problem.loose)),
+        of_mass_(problem.time.tolerance),
+        of_both_(problem.time.tolerance) {}
+
+  [[nodiscard]] std::size_t add(const SectionState& state, double log_area) {
+    if (has_loose_mass_) return of_both_.add(state.x, {state.v, state.z, state.w}, log_area);
+    return of_mass_.add(state.x, state.v, log_area);
+  }
+
+ private:
+  bool has_loose_mass_;
+  steady::RepeatFinder of_mass_;
+  steady::BasicRepeatFinder<3> of_both_;
+};
+
+/// The solution of (1 - map) step = gap by elimination; not finite if there is none.
+std::array<double, 4> solved(const motion::LooseJacobian& map, std::array<double, 4> gap) {
+  std::array<std::array<double, 4>, 4> left{};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = 0; k < 4; ++k) left[i][k] = (i == k ? 1.0 : 0.0) - map[i][k];
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::size_t pivot = i;
+    for (std::size_t row = i + 1; row < 4; ++row)
+      if (std::abs(left[row][i]) > std::abs(left[pivot][i])) pivot = row;
+    std::swap(left[i], left[pivot]), std::swap(gap[i], gap[pivot]);
+    for (std::size_t row = i + 1; row < 4; ++row) {
+      const double factor = left[row][i] / left[i][i];
+      for (std::size_t k = i; k < 4; ++k) left[row][k] -= factor * left[i][k];
+      gap[row] -= factor * gap[i];
+    }
+  }
+  for (std::size_t i = 4; i-- > 0;) {
+    for (std::size_t k = i + 1; k < 4; ++k) gap[i] -= left[i][k] * gap[k];
+    gap[i] /= left[i][i];
+  }
+  return gap;
+}
 
 /// Adds the contacts of a round over a time in tau.
 void add_contacts(const std::vector<Event>& events, double total, Round& round) {
@@ -33,8 +78,9 @@ void add_contacts(const std::vector<Event>& events, double total, Round& round) 
 
 }  // namespace
 
-point::Problem started(point::Problem problem, const PhasePoint& state, double phase) {
+point::Problem started(point::Problem problem, const SectionState& state, double phase) {
   problem.start = {state.x, state.v, phase + problem.shaking.lead};
+  problem.loose.place = state.z, problem.loose.velocity = state.w;
   return problem;
 }
 
@@ -43,6 +89,7 @@ std::optional<Round> run_round(const point::Problem& problem, std::size_t period
   const auto motion = point::ExactMotion::of(problem);
   point::MotionRecorder recorder(motion->stops());
   recorder.keep_events();
+  if (has_loose_mass(problem.loose)) recorder.loose.emplace(problem.oscillator, problem.loose);
   auto orbit = steady::orbit_from(motion->start(), periods, recorder.watch, [&](motion::State<double>& state) {
     const std::int64_t period = state.periods;
     if (!sections.empty()) state = sections[static_cast<std::size_t>(period)], state.periods = period;
@@ -51,35 +98,58 @@ std::optional<Round> run_round(const point::Problem& problem, std::size_t period
   if (!orbit) return std::nullopt;
   std::ranges::copy(sections, orbit->states.begin());
   Round round{*orbit, {}};
+  for (std::size_t i = 0; i <= periods; ++i) round.states.push_back(section_of(problem, orbit->states[i]));
+  if (recorder.loose) {
+    round.derivative = recorder.loose->mantissa();
+    for (auto& row : *round.derivative)
+      for (double& entry : row) entry *= std::exp2(recorder.loose->exponent());
+  }
   add_contacts(recorder.events, static_cast<double>(periods) * motion->period(), round);
   return round;
+}
+
+SectionState newton_step(const Round& round) {
+  if (!round.derivative) {
+    const motion::Perturbation step = steady::newton_step(round.orbit.derivative(), round.orbit.gap());
+    return {step.x, step.v};
+  }
+  const SectionState gap = round.gap();
+  const std::array<double, 4> step = solved(*round.derivative, {gap.x, gap.v, gap.x + gap.z, gap.v + gap.w});
+  const motion::LooseState<double>& loose = round.orbit.states[round.orbit.periods].loose;
+  if (loose.pressed) return {step[0], step[1], gap.z, gap.w};  // it stays on its wall
+  return {step[0], step[1], step[2] - step[0], step[3] - step[1]};
+}
+
+double spectral_radius(const Round& round) {
+  return round.derivative ? std::abs(observables::multipliers_of(*round.derivative)[0])
+                          : steady::spectral_radius(round.orbit.derivative());
 }
 
 std::string word_of(const point::Problem& problem, const Round& round) {
   return observables::ImpactWord::word_of(round.contacts, soft_stop_beyond(problem.stops, round.orbit.states[0].x));
 }
 
-std::optional<PhasePoint> state_after(const point::Problem& problem, double turns) {
+std::optional<SectionState> state_after(const point::Problem& problem, double turns) {
   const auto motion = point::ExactMotion::of(problem);
   point::MotionRecorder recorder(motion->stops());
   motion::State<double> state = motion->start();
   if (motion->run_for(state, turns, recorder) != stepping::Outcome::completed) return std::nullopt;
-  return PhasePoint{state.x, state.v};
+  return section_of(problem, state);
 }
 
 std::optional<Sections> run_sections(const point::Problem& problem, std::size_t periods) {
   const auto motion = point::ExactMotion::of(problem);
   point::MotionRecorder recorder(motion->stops());
   motion::State<double> state = motion->start();
-  steady::RepeatFinder repeat(problem.time.tolerance);
+  Repeats repeat(problem);
   Sections sections;
   while (sections.states.size() < periods && sections.repeats_after == 0) {
     recorder.watch.begin_section();
     if (motion->advance_to_section(state, state.periods, recorder) != stepping::Outcome::completed) return std::nullopt;
     const double log_area = recorder.watch.passage().log_area - 2 * problem.oscillator.damping * motion->period();
     sections.log_area += log_area;
-    sections.states.push_back({state.x, state.v});
-    sections.repeats_after = repeat.add(state.x, state.v, log_area);
+    sections.states.push_back(section_of(problem, state));
+    sections.repeats_after = repeat.add(sections.states.back(), log_area);
   }
   return sections;
 }

@@ -6,15 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "attractors/section_state.hpp"
+#include "motion/loose_tangent.hpp"
 #include "observables/impact_word.hpp"
 #include "point/problem.hpp"
-#include "scene/displacement_bound.hpp"
 #include "steady/map_orbit.hpp"
 
 namespace clatter::attractors {
 
 /// A problem that starts from another state, at another phase of the force or of the shaking (rad).
-[[nodiscard]] point::Problem started(point::Problem problem, const PhasePoint& state, double phase);
+[[nodiscard]] point::Problem started(point::Problem problem, const SectionState& state, double phase);
 
 /// A motion over some forcing periods with its derivative and its contacts.
 struct Round {
@@ -22,7 +23,17 @@ struct Round {
   std::vector<observables::ImpactWord::Contact> contacts;  ///< times in tau since the start
   double middle_of_flight = 0.0;  ///< of the longest one, forcing periods after the start; a flight may span the end
   double fastest = 0.0;           ///< speed of an impact
+  std::vector<SectionState> states{};                 ///< at its sections; the last as computed from the first
+  std::optional<motion::LooseJacobian> derivative{};  ///< with a loose mass, of (x, x', y, y')
+
+  [[nodiscard]] SectionState gap() const { return difference(states.front(), states.back()); }
 };
+
+/// The step of Newton's method from the beginning of a round towards a state that it brings back.
+[[nodiscard]] SectionState newton_step(const Round& round);
+
+/// The largest modulus of the multipliers of a round.
+[[nodiscard]] double spectral_radius(const Round& round);
 
 /// Runs a problem exactly from its start over whole forcing periods, at most RepeatFinder::longest; nothing if it
 /// fails. If the states at the sections are given, each period is run from its own.
@@ -33,13 +44,14 @@ struct Round {
 [[nodiscard]] std::string word_of(const point::Problem& problem, const Round& round);
 
 /// The state so many forcing periods after the start; nothing if the run fails.
-[[nodiscard]] std::optional<PhasePoint> state_after(const point::Problem& problem, double turns);
+[[nodiscard]] std::optional<SectionState> state_after(const point::Problem& problem, double turns);
 
 /// The states at the forcing phase of the start in successive periods.
 struct Sections {
-  std::vector<PhasePoint> states;  ///< after 1, 2, … periods, until the motion repeats
-  std::size_t repeats_after = 0;   ///< forcing periods; 0: it doesn't repeat
-  double log_area = 0.0;           ///< logarithm of the factor by which all of them changed a small area of states
+  std::vector<SectionState> states;  ///< after 1, 2, … periods, until the motion repeats
+  std::size_t repeats_after = 0;     ///< forcing periods; 0: it doesn't repeat
+  double log_area =
+      0.0;  ///< logarithm of the factor by which all of them changed a small area of states; with a loose mass volume
 };
 
 /// Runs a problem for so many forcing periods, or until it repeats; nothing if it fails.

@@ -13,7 +13,7 @@ namespace {
 
 /// A motion of one ensemble. All of the same number make a ring.
 struct Instance {
-  PhasePoint state{};
+  SectionState state{};
   std::size_t example = 0;  ///< its first point
   std::size_t ensemble = 0;
   std::uint32_t periods = 0;
@@ -278,12 +278,14 @@ class Numberer {
     const std::size_t ensemble = instances_[instance].ensemble;
     const point::Problem problem = parameters_of(ensemble);
     const EnsembleMotions motions = found_again(ensemble);
+    const Motion& motion = motions.motions()[instance - begins_[ensemble]];
+    if (motion.periodic && motion.periodic->floats) return instance;  // its band is its own mirror image
     const auto state = mirrored(problem, instances_[instance].state);
     if (!state) return std::nullopt;
     std::optional<std::size_t> met;
     if (instances_[instance].periods > 0) {
       met = motions.passing(*state);
-    } else if (motions.motions()[instance - begins_[ensemble]].symmetric) {
+    } else if (motion.symmetric) {
       return instance;
     } else if (const auto sections = run_sections(started(problem, *state, 0.0), VisitedCells::long_look)) {
       met = motions.visiting(sections->states);

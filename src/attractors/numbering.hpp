@@ -56,7 +56,7 @@ struct NumberedMotion {
   std::size_t points = 0;           ///< that end in it
   std::size_t periods = 0;          ///< forcing periods after which it repeats; 0: none
   std::string word{}, regime{};     ///< as `ImpactWord` gives them
-  PhasePoint state{};               ///< at forcing phase 0
+  SectionState state{};             ///< at forcing phase 0
   std::int32_t mirror = undecided;  ///< number of its mirror image; undecided: no start ends in it
   bool has_mirror = false;          ///< its scene is symmetric
 };
@@ -67,7 +67,7 @@ struct Numbering {
 };
 
 /// Memory that `number_motions` takes for each motion of each ensemble.
-inline constexpr double bytes_of_motion = 48;
+inline constexpr double bytes_of_motion = 64;
 
 /// Gives every point the number of the motion that it ends in. Numbers count motions by their first point. A motion
 /// keeps its number from ensemble to ensemble as long as it can be followed: first along the first dimension of

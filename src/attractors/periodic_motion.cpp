@@ -15,17 +15,12 @@ namespace {
 
 using observables::ImpactWord;
 
-[[nodiscard]] bool inside(const Stops& all, const PhasePoint& state) {
-  const Stops stops = rigid_ones(all);
-  return state.x >= stops.lower && state.x <= stops.upper && std::isfinite(state.v);
-}
-
 double larger_of(double x, double v) { return std::max(std::abs(x), std::abs(v)); }
 
 double size_of(const Round& round) {
   double size = round.fastest;
-  for (const motion::State<double>& state : std::span(round.orbit.states).first(round.orbit.periods))
-    size = std::max(size, larger_of(state.x, state.v));
+  for (const SectionState& state : std::span(round.states).first(round.orbit.periods))
+    size = std::max(size, size_of(state));
   return size;
 }
 
@@ -34,14 +29,13 @@ double size_of(const Round& round) {
 Round polished(const point::Problem& problem, Round round, double phase) {
   constexpr int most_iterations = 6;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const double gap = round.orbit.gap().size();
+    const double gap = size_of(round.gap());
     if (!(gap > 0)) break;
-    const motion::Perturbation step = steady::newton_step(round.orbit.derivative(), round.orbit.gap());
-    const motion::State<double>& from = round.orbit.states[0];
-    const PhasePoint next{from.x + step.x, from.v + step.v};
-    if (!inside(problem.stops, next)) break;
+    const SectionState step = newton_step(round), &from = round.states.front();
+    const SectionState next{from.x + step.x, from.v + step.v, from.z + step.z, from.w + step.w};
+    if (!is_inside(problem, next)) break;
     const std::optional<Round> closer = run_round(started(problem, next, phase), round.orbit.periods);
-    if (!closer || closer->orbit.passages != round.orbit.passages || !(closer->orbit.gap().size() < gap)) break;
+    if (!closer || closer->orbit.passages != round.orbit.passages || !(size_of(closer->gap()) < gap)) break;
     round = *closer;
   }
   return round;
@@ -53,14 +47,14 @@ PeriodicMotion described(const point::Problem& problem, const Round& round) {
   const std::size_t periods = round.orbit.periods;
   double log_area = -2 * problem.oscillator.damping * period_of(problem.oscillator) * static_cast<double>(periods);
   for (std::size_t i = 0; i < periods; ++i) {
-    const motion::State<double>& state = round.orbit.states[i];
-    motion.cycle.push_back(after_impact(problem.stops, {state.x, state.v}, motion.size));
+    motion.cycle.push_back(after_impact(problem, round.states[i], motion.size));
     log_area += round.orbit.passages[i].log_area;
   }
   motion.contracts = log_area < -1e-12;
   motion.word = word_of(problem, round);
   motion.regime = ImpactWord::regime_of(round.contacts, static_cast<double>(periods));
   motion.middle_of_flight = round.middle_of_flight;
+  motion.floats = has_loose_mass(problem.loose) && round.contacts.empty();
   return motion;
 }
 
@@ -75,36 +69,47 @@ steady::ObservedTime decided(const point::Problem& problem, const steady::MapOrb
 
 }  // namespace
 
-bool PeriodicMotion::passes(const PhasePoint& state) const {
+bool PeriodicMotion::passes(const SectionState& state) const {
   return std::ranges::any_of(
-      cycle, [&](const PhasePoint& own) { return larger_of(own.x - state.x, own.v - state.v) <= same_motion * size; });
+      cycle, [&](const SectionState& own) { return size_of(difference(own, state)) <= same_motion * size; });
 }
 
-PhasePoint after_impact(const Stops& stops, PhasePoint state, double size) {
-  const Stops rigid = rigid_ones(stops);
+SectionState after_impact(const Scene& scene, SectionState state, double size) {
+  const Stops &stops = scene.stops, rigid = rigid_ones(stops);
   if (state.v < 0 && std::abs(state.x - rigid.lower) <= same_motion * size) state.v *= -stops.restitution_lower;
   if (state.v > 0 && std::abs(state.x - rigid.upper) <= same_motion * size) state.v *= -stops.restitution_upper;
+  const LooseMass& loose = scene.loose;
+  const double wall = state.w < 0 ? loose.lower : loose.upper;
+  if (state.w != 0 && std::abs(state.z - wall) <= same_motion * size) {
+    const motion::WallRule<double> rule{loose.ratio, {loose.restitution}};
+    state.v = rule.main_after(state.v, state.w), state.w = rule.law.after(state.w);
+  }
   return state;
 }
 
-std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, PhasePoint state, std::size_t periods,
+std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, SectionState state, std::size_t periods,
                                               double phase) {
   const std::optional<Round> first = run_round(started(problem, state, phase), periods);
   if (!first) return std::nullopt;
-  const steady::ObservedTime exact = decided(problem, first->orbit, phase);
-  if (exact.status != steady::Status::periodic) return std::nullopt;
-  if (!exact.sections.empty()) {
-    const auto round =
-        run_round(started(problem, {exact.from.x, exact.from.v}, phase), exact.sections.size(), exact.sections);
+  if (!has_loose_mass(problem.loose)) {
+    const steady::ObservedTime exact = decided(problem, first->orbit, phase);
+    if (exact.status != steady::Status::periodic) return std::nullopt;
+    if (!exact.sections.empty()) {
+      const auto round =
+          run_round(started(problem, {exact.from.x, exact.from.v}, phase), exact.sections.size(), exact.sections);
+      return round ? std::optional(described(problem, *round)) : std::nullopt;
+    }
+  } else if (first->contacts.empty()) {  // neutral, so that Newton's method has no way to go; its period is the force's
+    const auto round = periods > 1 ? run_round(started(problem, state, phase), 1) : first;
     return round ? std::optional(described(problem, *round)) : std::nullopt;
   }
   Round round = polished(problem, *first, phase);
-  const auto states = std::span(round.orbit.states);
+  const std::vector<SectionState>& states = round.states;
   const double same = same_motion * size_of(round);
-  const std::size_t shortest = steady::least_divisor(
-      periods, [&](std::size_t m) { return motion::Perturbation(between(states[0], states[m])).size() <= same; });
+  const std::size_t shortest =
+      steady::least_divisor(periods, [&](std::size_t m) { return size_of(difference(states[0], states[m])) <= same; });
   if (shortest < periods) {  // contacts, word and flight of the shorter period
-    const auto again = run_round(started(problem, {states[0].x, states[0].v}, phase), shortest);
+    const auto again = run_round(started(problem, states[0], phase), shortest);
     if (!again) return std::nullopt;
     round = *again;
   }
@@ -124,12 +129,15 @@ PeriodicMotion standstill(const point::Problem& problem, double x) {
           .contracts = true};
 }
 
-std::optional<PhasePoint> mirrored(const point::Problem& problem, const PhasePoint& state) {
+std::optional<SectionState> mirrored(const point::Problem& problem, const SectionState& state) {
   const std::optional<double> centre = mirror_centre(problem);
   if (!centre) return std::nullopt;
-  const auto image = [&](const PhasePoint& of) { return PhasePoint{2 * *centre - of.x, -of.v}; };
+  const double walls = has_loose_mass(problem.loose) ? problem.loose.lower + problem.loose.upper : 0.0;
+  const auto image = [&](const SectionState& of) {
+    return SectionState{2 * *centre - of.x, -of.v, walls - of.z, -of.w};
+  };
   if (problem.oscillator.forcing == 0) return image(state);
-  const std::optional<PhasePoint> later = state_after(started(problem, state, 0.0), 0.5);
+  const std::optional<SectionState> later = state_after(started(problem, state, 0.0), 0.5);
   return later ? std::optional(image(*later)) : std::nullopt;
 }
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "math/number.hpp"
-#include "steady/contraction.hpp"
 
 namespace clatter::attractors {
 namespace {
@@ -29,12 +28,13 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
                    mix(from.stops.stiffness_upper, to.stops.stiffness_upper),
                    mix(from.stops.damping_lower, to.stops.damping_lower),
                    mix(from.stops.damping_upper, to.stops.damping_upper)};
+  const LooseMass &one = from.loose, &other = to.loose;
+  problem.loose = {.ratio = mix(one.ratio, other.ratio),
+                   .lower = mix(one.lower, other.lower),
+                   .upper = mix(one.upper, other.upper),
+                   .restitution = mix(one.restitution, other.restitution),
+                   .load = mix(one.load, other.load)};
   return problem;
-}
-
-PhasePoint inside(const Stops& stops, const PhasePoint& state) {
-  const Stops rigid = rigid_ones(stops);
-  return {std::clamp(state.x, rigid.lower, rigid.upper), state.v};
 }
 
 /// The displacement at which a mass that stands still at x does so at other parameters: on its stop, or in equilibrium.
@@ -50,10 +50,11 @@ TrackedMotion::TrackedMotion(const point::Problem& problem, const Motion& motion
   sticks_ = motion.sticks;
   if (!motion.periodic) return;
   const PeriodicMotion& periodic = *motion.periodic;
+  floats_ = periodic.floats;
   word_ = periodic.word, size_ = periodic.size;
   state_ = periodic.cycle[static_cast<std::size_t>(periodic.middle_of_flight)];
   phase_turns_ = periodic.middle_of_flight - std::floor(periodic.middle_of_flight);
-  if (sticks_ || problem.oscillator.forcing == 0 || phase_turns_ == 0) return;
+  if (sticks_ || floats_ || problem.oscillator.forcing == 0 || phase_turns_ == 0) return;
   const auto there = state_after(started(problem, state_, 0.0), phase_turns_);
   lost_ = !there;
   if (there) state_ = *there;
@@ -65,13 +66,15 @@ bool TrackedMotion::follow(const point::Problem& to) {
   if (sticks_) {  // perhaps elsewhere in its band
     if (!sticks_for_good(to, state_.x)) state_.x = equilibrium_of(to.oscillator);
     followed = sticks_for_good(to, state_.x);
+  } else if (floats_) {  // perhaps elsewhere in its housing
+    followed = may_float(to);
   } else if (to.oscillator.forcing == 0 || at_.oscillator.forcing == 0) {
     followed = to.oscillator.forcing == at_.oscillator.forcing;
     state_.x = place_of_rest(at_, to, state_.x);
   } else if (is_periodic()) {
     followed = follow_periodic(to);
   } else {
-    const auto sections = run_sections(started(to, inside(to.stops, state_), 0.0), VisitedCells::long_look);
+    const auto sections = run_sections(started(to, moved_inside(to, state_), 0.0), VisitedCells::long_look);
     followed = sections && sections->repeats_after == 0;
     if (followed) {
       state_ = sections->states.back();
@@ -105,18 +108,17 @@ bool TrackedMotion::correct(const point::Problem& problem) {
   constexpr int most_iterations = 8;
   const double phase = 2 * pi<double>() * phase_turns_, enough = 1e-11 * size_;
   double before = std::numeric_limits<double>::infinity();
-  state_ = inside(problem.stops, state_);
+  state_ = moved_inside(problem, state_);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const auto round = run_round(started(problem, state_, phase), periods_);
     if (!round) return false;
-    const motion::Perturbation step = steady::newton_step(round->orbit.derivative(), round->orbit.gap());
-    const double length = step.size();
+    const SectionState step = newton_step(*round);
+    const double length = size_of(step);
     if (length <= enough)
-      return word_of(problem, *round) == word_ && steady::spectral_radius(round->orbit.derivative()) < 1 &&
-             move_section(problem, *round);
+      return word_of(problem, *round) == word_ && spectral_radius(*round) < 1 && move_section(problem, *round);
     if (!(length <= before / 4)) return false;
     before = length;
-    state_ = inside(problem.stops, {state_.x + step.x, state_.v + step.v});
+    state_ = moved_inside(problem, {state_.x + step.x, state_.v + step.v, state_.z + step.z, state_.w + step.w});
   }
   return false;
 }
@@ -125,8 +127,7 @@ bool TrackedMotion::correct(const point::Problem& problem) {
 bool TrackedMotion::move_section(const point::Problem& problem, const Round& round) {
   const double turns = round.middle_of_flight;
   size_ = round.fastest;
-  for (std::size_t i = 0; i < periods_; ++i)
-    size_ = std::max({size_, std::abs(round.orbit.states[i].x), std::abs(round.orbit.states[i].v)});
+  for (std::size_t i = 0; i < periods_; ++i) size_ = std::max(size_, size_of(round.states[i]));
   const auto there = state_after(started(problem, state_, 2 * pi<double>() * phase_turns_), turns);
   if (!there) return false;
   state_ = *there, phase_turns_ += turns, phase_turns_ -= std::floor(phase_turns_);
@@ -134,14 +135,14 @@ bool TrackedMotion::move_section(const point::Problem& problem, const Round& rou
 }
 
 std::optional<std::size_t> TrackedMotion::among(const EnsembleMotions& motions) const {
-  if (sticks_) return motions.sticking();
+  if (sticks_ || floats_) return motions.band();
   if (!is_periodic()) {
     const auto met = motions.visiting(states_);
     return met && motions.motions()[*met].symmetric == symmetric_ ? met : std::nullopt;
   }
   if (at_.oscillator.forcing == 0) return motions.passing(state_);
   const auto there = state_after(started(at_, state_, 2 * pi<double>() * phase_turns_), 1 - phase_turns_);
-  return there ? motions.passing(after_impact(at_.stops, *there, size_)) : std::nullopt;
+  return there ? motions.passing(after_impact(at_, *there, size_)) : std::nullopt;
 }
 
 }  // namespace clatter::attractors

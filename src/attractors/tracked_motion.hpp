@@ -32,15 +32,16 @@ class TrackedMotion {
   [[nodiscard]] bool move_section(const point::Problem& problem, const Round& round);
 
   point::Problem at_;         ///< the parameters that it has been followed to
-  PhasePoint state_;          ///< at the section
+  SectionState state_;        ///< at the section
   double phase_turns_ = 0.0;  ///< forcing phase of the section, in turns, 0 ... 1
   std::size_t periods_ = 0;   ///< 0: it has no period
   std::string word_{};
   double size_ = 0.0;
-  bool symmetric_ = false;            ///< of motion without a period
-  bool sticks_ = false;               ///< friction holds the mass for good
-  bool lost_ = false;                 ///< it couldn't be brought to its section
-  std::vector<PhasePoint> states_{};  ///< of motion without a period at phase 0, at these parameters
+  bool symmetric_ = false;              ///< of motion without a period
+  bool sticks_ = false;                 ///< friction holds the mass for good
+  bool floats_ = false;                 ///< no wall meets the loose mass
+  bool lost_ = false;                   ///< it couldn't be brought to its section
+  std::vector<SectionState> states_{};  ///< of motion without a period at phase 0, at these parameters
 };
 
 }  // namespace clatter::attractors

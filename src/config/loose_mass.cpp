@@ -81,12 +81,8 @@ void check_uses(const Settings& settings) {
   const auto refuse_key = [&](std::string_view section, std::string_view name, const std::string& way_out) {
     refuse(settings.find(section, name)->key_location, in_quotes(name), way_out);
   };
-  if (settings.flag("observe", "attractor"))
-    refuse_key("observe", "attractor", "leave it out, and observe word or section");
   if (!named_parameters(settings, "observe", "sensitivity").empty())
     refuse_key("observe", "sensitivity", "leave it out, and vary a key in [sweep]");
-  if (!without_blanks(settings.text("sweep", "follow")).empty())
-    refuse_key("sweep", "follow", "leave it out: every point starts from x0, v0, loose_x0 and loose_v0");
   if (settings.text("integrator", "method") != "exact")
     refuse_key("integrator", "method", "take \"exact\", the only one that has it");
   if (const Setting* const along = settings.find("branch", "along"))

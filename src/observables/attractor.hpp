@@ -14,10 +14,12 @@ namespace clatter::observables {
 struct Attractor {
   struct Settings {
     bool attractor = false;
+    bool loose_attractor = false;  ///< with it: the state of a loose mass
   };
   struct Values {
     double attractor_x = no_value, attractor_v = no_value;  ///< at the end of the observed time
     double attractor_periods = no_value;  ///< forcing periods after which the motion repeats; 0: none; NaN: not known
+    double attractor_z = no_value, attractor_w = no_value;  ///< of a loose mass, then; the point sets them
   };
   static constexpr std::tuple fields{
       Field{Key{"observe", "attractor", Kind::flag, "false", "true",
@@ -26,17 +28,23 @@ struct Attractor {
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.attractor; }
   [[nodiscard]] static std::string description(const Settings&) { return "attractors"; }
-  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings) {
     const auto intermediate = [](const char* name, const char* long_name, double Values::*member) {
       Column<Values> column = scalar(name, long_name, member);
       column.intermediate = true;
       return column;
     };
-    return {
+    std::vector<Column<Values>> all{
         in_relative_frame(intermediate("attractor_x", "displacement in which the point ended", &Values::attractor_x)),
         in_relative_frame(intermediate("attractor_v", "velocity in which the point ended", &Values::attractor_v)),
         intermediate("attractor_periods", "forcing periods after which it repeats, 0: none",
                      &Values::attractor_periods)};
+    if (!settings.loose_attractor) return all;
+    all.push_back(intermediate("attractor_z", "place of the loose mass in the housing in which the point ended",
+                               &Values::attractor_z));
+    all.push_back(intermediate("attractor_w", "velocity of the loose mass over the housing in which the point ended",
+                               &Values::attractor_w));
+    return all;
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "motion/event.hpp"
+#include "motion/loose_tangent.hpp"
 #include "point/problem.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/passage_observer.hpp"
@@ -20,6 +22,8 @@ class MotionRecorder {
   template <class A>
   void arc(const A& arc, double begin, double length) {
     watch.arc(arc, begin, length);
+    if (loose) [[unlikely]]
+      loose->arc(arc, begin, length);
   }
   void rest(const motion::Rest& rest) { add(event_of(rest)), watch.rest(rest); }
   void impact(const motion::Impact& impact) { add(event_of(impact)), watch.impact(impact); }
@@ -27,11 +31,26 @@ class MotionRecorder {
   void touch(const motion::Touch& touch) { add(event_of(touch)), watch.touch(touch); }
   void separate(const motion::Separation& separation) { watch.separate(separation), add(event_of(separation)); }
 
+  /// A loose mass strikes a wall of its housing, comes to rest on it, and is pressed by it.
+  void strike(const motion::Strike& strike) {
+    add(event_of(strike.in_housing())), watch.strike(strike);
+    if (loose) loose->strike(strike);
+  }
+  void press(const motion::Press& press) {
+    watch.press(press);
+    if (loose) loose->press(press);
+  }
+  template <class A>
+  void hold(const A&, const motion::Rest& hold) {
+    add(event_of(hold));
+  }
+
   void keep_events() { keeps_events_ = true; }
   /// Keeps them with the derivative of the motion to each from the one before, the first from here.
   void keep_derivatives() { keeps_events_ = keeps_derivatives_ = true, watch.differentiate(); }
 
   steady::PassageObserver watch;
+  std::optional<motion::LooseTangent> loose{};          ///< the derivative with a loose mass, if it is asked for
   std::vector<motion::Event> events{};                  ///< in order, if they are kept
   std::vector<motion::Jacobian<double>> derivatives{};  ///< of the state before each of them by that before the last
 

@@ -14,6 +14,11 @@ namespace clatter::point {
 
 using observables::no_value;
 
+/// The end of an observed motion, from which the next point of a chain starts.
+struct End : Start {
+  double loose_place = 0.0, loose_velocity = 0.0;  ///< of a loose mass, if there is one: z and z'
+};
+
 /// The results of a point; values that are not observed, or of a failed point, are NaN or empty.
 struct PointResult : observables::All::Values {
   steady::Status status = steady::Status::unresolved;
@@ -25,7 +30,7 @@ struct PointResult : observables::All::Values {
   double evaluations = 0.0;
   double settling_estimate = no_value;  ///< forcing periods until the motion is within the tolerance of the steady one
   double observed_turns = no_value;     ///< forcing periods observed
-  Start end{};                          ///< the end of the observed motion, from which the next point of a chain starts
+  End end{};
 };
 
 /// Memory that the points of one thread share.

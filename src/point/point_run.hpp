@@ -72,10 +72,11 @@ class Point {
     result_.observed_turns = observed_.turns;
     result_.evaluations = observers.evaluations();
     if (outcome != stepping::Outcome::completed) return broken(state, steady::status_of(outcome));
-    result_.end = {state.x, state.v, problem_.start.phase};
+    static_cast<Start&>(result_.end) = {state.x, state.v, problem_.start.phase};
     if (state.phase_turns > 0)
       result_.end.phase = std::fmod(problem_.start.phase + 2 * pi<double>() * state.phase_turns, 2 * pi<double>());
     observers.finish(span_, state.x, state.v, result_);
+    if (has_loose_mass(problem_.loose)) tell_loose_end(state);
     if (observers.template of<observables::Energy>() && !std::isfinite(result_.energy_residual)) {
       result_ = {};  // of its values those that are finite would look right
       return broken(state, steady::Status::not_finite);
@@ -164,6 +165,13 @@ class Point {
       if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
     const double tolerance = observed_.found_by == steady::FoundBy::repetition ? problem_.time.tolerance : 0.0;
     return (64 * epsilon<double>() + tolerance) * size;
+  }
+
+  /// Keeps the place of a loose mass at the end.
+  void tell_loose_end(const motion::State<double>& state) {
+    const auto [z, w] = motion::place_in_housing(state, problem_.loose);
+    result_.end.loose_place = z, result_.end.loose_velocity = w;
+    if (problem_.observe.attractor) result_.attractor_z = z, result_.attractor_w = w;
   }
 
   /// The result if the run, or an observable, fails at a state.

@@ -121,10 +121,19 @@ void add_counts(const Sweep& sweep, const attractors::Grid& grid, const attracto
       {"motion_share_high", along, std::move(high), "upper end of the 95 % interval of the share", "1"});
 }
 
-/// A relative velocity at phase 0 in the frame and the units of the user.
-double example_velocity(const point::Problem& problem, double v) {
-  if (const auto frame = observed_frame(problem)) v += frame->velocity({0.0, 1.0});
-  return problem.units == Units{} ? v : v * factor_of(problem.units, Quantity::velocity);
+/// The state of a motion at forcing phase 0, at its example, in the frame and the units of the user.
+attractors::SectionState example_state(const Sweep& sweep, const attractors::NumberedMotion& motion) {
+  point::Problem problem = problem_at(sweep, motion.example % size_one_way(sweep));
+  problem.start.phase = problem.shaking.lead;
+  attractors::SectionState state = motion.state;
+  if (const auto frame = observed_frame(problem)) {
+    const SineCosine<double> at = frame->at(0.0);
+    state.x += frame->displacement(at), state.v += frame->velocity(at);
+  }
+  if (problem.units == Units{}) return state;
+  const double rate = factor_of(problem.units, Quantity::velocity);
+  state.v *= rate, state.w *= rate;
+  return state;
 }
 
 }  // namespace
@@ -177,13 +186,20 @@ void add_attractors(const Sweep& sweep, bool is_shard, const std::vector<std::st
   add("motion_points", "points that end in it", [](const Motion& m) { return static_cast<std::int64_t>(m.points); });
   add(
       "motion_x", "displacement at forcing phase 0, at the parameters of the example",
-      [](const Motion& m) { return m.state.x; }, Quantity::length);  // in both frames: what is shaken is at 0, too
+      [&](const Motion& m) { return example_state(sweep, m).x; }, Quantity::length);
   name_frame(sweep, observables::FrameOf::observed, dataset.variables.back());
   add(
       "motion_v", "velocity at forcing phase 0, at the parameters of the example",
-      [&](const Motion& m) { return example_velocity(problem_at(sweep, m.example % size_one_way(sweep)), m.state.v); },
-      Quantity::velocity);
+      [&](const Motion& m) { return example_state(sweep, m).v; }, Quantity::velocity);
   name_frame(sweep, observables::FrameOf::observed, dataset.variables.back());
+  if (sweep.problem.observe.loose_attractor) {
+    add(
+        "motion_z", "place of the loose mass in the housing at forcing phase 0, at the parameters of the example",
+        [&](const Motion& m) { return example_state(sweep, m).z; }, Quantity::length);
+    add(
+        "motion_w", "velocity of the loose mass over the housing at forcing phase 0, at those parameters",
+        [&](const Motion& m) { return example_state(sweep, m).w; }, Quantity::velocity);
+  }
   add("motion_example", "index of the first point that ends in it, row-major over the sweep",
       [](const Motion& m) { return static_cast<std::int64_t>(m.example); });
   if (!is_shard) add_counts(sweep, grid_of(sweep), numbering, dataset);

@@ -20,7 +20,7 @@ struct PointEndings {
 };
 
 /// Numbers the motions that the points of a sweep end in. Ensembles are the points that differ only in x0, v0, phase,
-/// start_period and the direction of `follow`. Throws std::bad_alloc.
+/// start_period, the start of a loose mass and the direction of `follow`. Throws std::bad_alloc.
 [[nodiscard]] attractors::Numbering numbering_of(const Sweep& sweep, int threads, const PointEndings& endings);
 
 /// Number of ensembles of a sweep.
@@ -32,6 +32,6 @@ void add_attractors(const Sweep& sweep, bool is_shard, const std::vector<std::st
                     attractors::Numbering numbering, results::Dataset& dataset);
 
 /// Upper bound of the values of one point in these variables.
-inline constexpr double attractor_values = 16;
+inline constexpr double attractor_values = 18;
 
 }  // namespace clatter::sweep

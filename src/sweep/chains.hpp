@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "point/point.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::sweep {
@@ -41,15 +42,37 @@ struct Chains {
   }
 };
 
+/// Adds the motion of a shaken base to a start at its phase, times `sign`, if a loose mass makes the ground the frame
+/// in which the problem is computed.
+inline void add_base(Start& start, const point::Problem& problem, int sign) {
+  if (!has_loose_mass(problem.loose) || !is_shaken(problem.shaking)) return;
+  const FrameMotion base(problem.shaking, problem.oscillator, start.phase);
+  start.displacement += sign * base.displacement(base.at(0.0)), start.velocity += sign * base.velocity(base.at(0.0));
+}
+
+/// The end of a point as the next one starts from it: relative to what is shaken, at the phase of the shaking.
+[[nodiscard]] inline point::End end_for_next(const point::Problem& problem, point::End end) {
+  end.phase -= problem.shaking.lead;
+  add_base(end, problem, -1);
+  return end;
+}
+
 /// Starts a point of a chain from the end of the one before, whose phase is that of the shaking, or from the scene's
 /// own start if that one failed. A displacement beyond narrower rigid stops is moved onto the stop, the velocity kept,
-/// though the units of time may differ.
-inline void start_from(point::Problem& problem, const std::optional<Start>& end, const Units& units_of_end) {
-  if (end) problem.start = *end;
-  if (end && problem.shaking.lead != 0) problem.start.phase += problem.shaking.lead;
-  if (end && units_of_end.time != problem.units.time) problem.start.velocity *= problem.units.time / units_of_end.time;
+/// though the units of time may differ; so is the place of a loose mass beyond narrower walls.
+inline void start_from(point::Problem& problem, const std::optional<point::End>& end, const Units& units_of_end) {
+  if (end) {
+    problem.start = *end;
+    const double rate = units_of_end.time != problem.units.time ? problem.units.time / units_of_end.time : 1.0;
+    problem.start.velocity *= rate;
+    if (has_loose_mass(problem.loose))
+      problem.loose.place = end->loose_place, problem.loose.velocity = end->loose_velocity * rate;
+    add_base(problem.start, problem, 1);
+    if (problem.shaking.lead != 0) problem.start.phase += problem.shaking.lead;
+  }
   const Stops rigid = rigid_ones(problem.stops);
   problem.start.displacement = std::clamp(problem.start.displacement, rigid.lower, rigid.upper);
+  problem.loose.place = std::clamp(problem.loose.place, problem.loose.lower, problem.loose.upper);
 }
 
 }  // namespace clatter::sweep

@@ -288,7 +288,10 @@ results::Dataset ResultStore::dataset() {
     const Quantity quantity = output.intermediate ? Quantity::number : output.quantity;
     dataset.variables.push_back({output.name, std::move(dimensions), std::move(values), long_name,
                                  unit_of_derivative(quantity, output.per, is_si)});
-    name_frame(sweep_, output.frame, dataset.variables.back());
+    const bool is_on_ground = output.intermediate && sweep_.problem.observe.loose_attractor;  // as it is computed
+    const bool is_framed = output.frame != observables::FrameOf::any;
+    name_frame(sweep_, is_on_ground && is_framed ? observables::FrameOf::absolute : output.frame,
+               dataset.variables.back());
     if (!output.observable.empty()) name_observable(output.observable, dataset.variables.back());
     std::string& missing_if = dataset.variables.back().missing_if;
     missing_if = output.missing_if.empty() ? "the point failed" : "the point failed, or ";
@@ -318,7 +321,13 @@ void ResultStore::number_motions(int threads) {
     if (found == numbers.end() || *found != static_cast<std::int64_t>(point)) return std::nullopt;
     return static_cast<std::size_t>(found - numbers.begin());
   };
-  const auto ending = [&](std::size_t i) { return attractors::Ending{{x[i], v[i]}, periods[i]}; };
+  const bool loose = sweep_.problem.observe.loose_attractor;
+  const std::vector<double>*const z = loose ? &values_of("attractor_z") : nullptr, *const w =
+                                                                                       loose ? &values_of("attractor_w")
+                                                                                             : nullptr;
+  const auto ending = [&](std::size_t i) {
+    return attractors::Ending{{x[i], v[i], loose ? (*z)[i] : 0.0, loose ? (*w)[i] : 0.0}, periods[i]};
+  };
   numbering_ = numbering_of(sweep_, threads, {status_.size(), index, ending});
 }
 

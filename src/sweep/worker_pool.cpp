@@ -94,7 +94,7 @@ std::optional<WorkerPool::Chunk> WorkerPool::next_chunk() {
   }
 }
 
-point::WorkItem WorkerPool::item_of(std::size_t chain, std::size_t position, const std::optional<Start>& end,
+point::WorkItem WorkerPool::item_of(std::size_t chain, std::size_t position, const std::optional<point::End>& end,
                                     const Units& units_of_end) const {
   const std::size_t point = share_.point(chain, position);
   point::WorkItem item{chain, position, problem_at(sweep_, mirror_images_.original_of(point).value_or(point)), {}};
@@ -146,8 +146,8 @@ void WorkerPool::run_lanes(std::size_t thread) {
 
 std::optional<point::WorkItem> WorkerPool::store(const point::WorkItem& item, point::PointResult&& result,
                                                  std::size_t thread) {
-  std::optional<Start> end = failed(result.status) ? std::nullopt : std::optional<Start>(result.end);
-  if (end) end->phase -= item.problem.shaking.lead;
+  std::optional<point::End> end;
+  if (!failed(result.status)) end = end_for_next(item.problem, result.end);
   add(work_[thread], work_of(item, result));
   if (mirror_images_.exist()) {
     const std::size_t point = share_.point(item.chain, item.position);

@@ -58,7 +58,8 @@ class WorkerPool {
 
   /// A point of a chain, the first or, if there is an end of the one before, from that.
   [[nodiscard]] point::WorkItem item_of(std::size_t chain, std::size_t position = 0,
-                                        const std::optional<Start>& end = {}, const Units& units_of_end = {}) const;
+                                        const std::optional<point::End>& end = {},
+                                        const Units& units_of_end = {}) const;
 
   /// Runs the points that lanes accept, and between them, one by one, those that they don't. Of chains, a thread
   /// takes no more than its share, so that the others have as many.

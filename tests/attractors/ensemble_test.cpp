@@ -91,11 +91,21 @@ TEST(Ensemble, leaves_what_no_point_can_end_in_undecided) {
 }
 
 TEST(Ensemble, takes_the_states_before_and_after_an_impact_for_one) {
-  const Stops stops{-3.0, 3.0, 0.5, 0.7};
-  EXPECT_EQ(after_impact(stops, {-3.0 + 1e-10, -2.0}, 2.0).v, 1.0);
-  EXPECT_EQ(after_impact(stops, {3.0, 2.0}, 2.0).v, -1.4);
-  EXPECT_EQ(after_impact(stops, {3.0, -2.0}, 2.0).v, -2.0);
-  EXPECT_EQ(after_impact(stops, {2.9, 2.0}, 2.0).v, 2.0);
+  const Scene scene{.stops = {-3.0, 3.0, 0.5, 0.7}};
+  EXPECT_EQ(after_impact(scene, {-3.0 + 1e-10, -2.0}, 2.0).v, 1.0);
+  EXPECT_EQ(after_impact(scene, {3.0, 2.0}, 2.0).v, -1.4);
+  EXPECT_EQ(after_impact(scene, {3.0, -2.0}, 2.0).v, -2.0);
+  EXPECT_EQ(after_impact(scene, {2.9, 2.0}, 2.0).v, 2.0);
+}
+
+TEST(Ensemble, takes_the_states_of_a_loose_mass_before_and_after_an_impact_for_one) {
+  const Scene scene{.loose = {.ratio = 0.25, .lower = -1.0, .upper = 2.0, .restitution = 0.5}};
+  const SectionState after = after_impact(scene, {0.3, 0.1, -1.0 + 1e-10, -2.0}, 2.0);
+  EXPECT_EQ(after.x, 0.3);
+  EXPECT_EQ(after.w, 1.0);
+  EXPECT_NEAR(after.v + 0.25 * (after.v + after.w), 0.1 + 0.25 * (0.1 - 2.0), 1e-15);  // momentum
+  for (const SectionState& other : {SectionState{0.3, 0.1, -1.0, 2.0}, SectionState{0.3, 0.1, 1.9, 2.0}})
+    EXPECT_EQ(after_impact(scene, other, 2.0).w, 2.0);
 }
 
 TEST(Tracked, motion_is_followed_to_its_fold_and_no_further) {

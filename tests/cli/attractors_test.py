@@ -55,6 +55,15 @@ class Attractors(CommandLine):
             with self.subTest(text=text):
                 self.assert_same_bytes(text)
 
+    def test_the_state_of_a_motion_is_that_of_its_section_in_either_frame(self):
+        scene = SCENE.replace("-3.0", "1.0") + "nu = 1.2\nbase_amplitude = 0.2\nstop_phase = 1.1\n"
+        for frame in ("relative", "absolute"):
+            self.write("a.toml", f'{scene}[observe]\nattractor = true\nsection = 1\nframe = "{frame}"\n')
+            self.run_to("a.h5")
+            with h5py.File(self.directory / "a.h5") as file:
+                for name in "xv":
+                    np.testing.assert_allclose(file[f"motion_{name}"][0], file[f"section_{name}"][0], rtol=1e-9)
+
     def assert_same_bytes(self, text):
         self.write("a.toml", text)
         whole = self.run_to("whole.h5", "--threads", "1")

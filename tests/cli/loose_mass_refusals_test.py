@@ -26,10 +26,7 @@ class Refusals(CommandLine):
         self.assertRegex(said, REMEDY)
 
     def test_what_does_not_know_it(self):
-        for key, value in {"attractor": "true", "sensitivity": '"nu"'}.items():
-            self.assert_told(f"{SCENE}[observe]\n{key} = {value}\n", ("loose_mass", key))
-        follow = SCENE.replace("nu = 1.3\n", "") + '[sweep]\nnu = "linspace(1, 2, 5)"\nfollow = "nu"\n'
-        self.assert_told(follow, ("loose_mass", "follow"))
+        self.assert_told(f'{SCENE}[observe]\nsensitivity = "nu"\n', ("loose_mass", "sensitivity"))
         for method in ("dopri5", "moreau"):
             self.assert_told(f'{SCENE}[integrator]\nmethod = "{method}"\n', ("loose_mass", "method"))
         along = f'{SCENE}[branch]\nalong = "nu"\nrange = [1, 2]\n'
@@ -67,6 +64,11 @@ class Refusals(CommandLine):
             for value in values:
                 with self.subTest(key=key, value=value):
                     self.assert_told(f"{lines}{key} = {value}\n", (key,))
+        for key in ("loose_x0", "loose_v0"):  # only the first point would start from it
+            follow = f'{SCENE}[sweep]\n{key} = "linspace(0, 1, 5)"\nfollow = "{key}"\n'
+            self.assert_told(follow, ("follow", key))
+        starts = f'{SCENE}[sweep]\nloose_x0 = "linspace(-2, 2, 5)"\n[observe]\nattractor = true\n'
+        self.assert_told(starts, ("loose_x0", "between the walls"))
         walls = SCENE.replace("loose_gap = 1.9", "loose_lower = 1\nloose_upper = -1")
         self.assert_told(walls, ("loose_lower", "loose_upper"))
         self.assert_told(walls.replace("-1", "1"), ("loose_lower", "loose_upper"))

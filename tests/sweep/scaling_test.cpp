@@ -112,7 +112,7 @@ TEST(Scaling, follow_keeps_the_velocity_when_the_stiffness_changes) {
   first.units.time = 1;
   point::Problem next = first;
   next.units.time = 0.5;
-  start_from(next, Start{0.1, 3.0, 0.0}, first.units);
+  start_from(next, point::End{{0.1, 3.0, 0.0}}, first.units);
   EXPECT_EQ(next.start.velocity * factor_of(next.units, Quantity::velocity), 3.0);
 }
 

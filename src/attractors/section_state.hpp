@@ -1,0 +1,62 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/state.hpp"
+#include "motion/walls.hpp"
+#include "scene/displacement_bound.hpp"
+#include "scene/scene.hpp"
+
+namespace clatter::attractors {
+
+/// A state at a section: that of the mass and, if it carries a loose one, the place z of that in its housing and z'.
+struct SectionState : PhasePoint {
+  constexpr SectionState() : PhasePoint{0.0, 0.0} {}
+  constexpr SectionState(const PhasePoint& main) : PhasePoint(main) {}
+  constexpr SectionState(double x_at, double v_at, double z_at = 0.0, double w_at = 0.0)
+      : PhasePoint{x_at, v_at}, z(z_at), w(w_at) {}
+
+  double z = 0.0, w = 0.0;  ///< 0 without a loose mass
+};
+
+[[nodiscard]] inline SectionState section_of(const Scene& scene, const motion::State<double>& state) {
+  if (!has_loose_mass(scene.loose)) return {state.x, state.v};
+  const auto [z, w] = motion::place_in_housing(state, scene.loose);
+  return {state.x, state.v, z, w};
+}
+
+/// The largest of its numbers.
+[[nodiscard]] inline double size_of(const SectionState& state) {
+  return std::max(std::max(std::abs(state.x), std::abs(state.v)), std::max(std::abs(state.z), std::abs(state.w)));
+}
+
+[[nodiscard]] inline SectionState difference(const SectionState& from, const SectionState& to) {
+  return {to.x - from.x, to.v - from.v, to.z - from.z, to.w - from.w};
+}
+
+/// A state at which no stop is passed, and no wall of a loose mass.
+[[nodiscard]] inline bool is_inside(const Scene& scene, const SectionState& state) {
+  const Stops stops = rigid_ones(scene.stops);  // a soft one may be passed
+  return state.x >= stops.lower && state.x <= stops.upper && std::isfinite(state.x) && std::isfinite(state.v) &&
+         state.z >= scene.loose.lower && state.z <= scene.loose.upper && std::isfinite(state.z) &&
+         std::isfinite(state.w);
+}
+
+/// The nearest such state.
+[[nodiscard]] inline SectionState moved_inside(const Scene& scene, const SectionState& state) {
+  const Stops stops = rigid_ones(scene.stops);
+  return {std::clamp(state.x, stops.lower, stops.upper), state.v,
+          std::clamp(state.z, scene.loose.lower, scene.loose.upper), state.w};
+}
+
+/// Whether a loose mass can stay for ever where no wall meets it: in some places of its housing the steady motion of
+/// the main mass alone passes between the walls, and no force moves it from there.
+[[nodiscard]] inline bool may_float(const Scene& scene) {
+  if (!has_loose_mass(scene.loose) || scene.loose.load != 0) return false;
+  const PhasePoint response = response_at(scene.oscillator, 0.0, 1.0);
+  const double reach = std::hypot(response.x, response.v / scene.oscillator.frequency);
+  return 2 * reach < scene.loose.upper - scene.loose.lower;
+}
+
+}  // namespace clatter::attractors
