@@ -24,12 +24,6 @@ void check_starts(const config::Config& config, const std::string& file) {
                    ": [sweep] follow: an accuracy run starts every point from [scene]; add --set sweep.follow=''");
 }
 
-void check_masses(const config::Config& config, const std::string& file) {
-  if (!has_loose_mass(config.sweep)) return;
-  throw UsageError(storage::printable(file) +
-                   ": 'loose_mass': no general method and no reference in 50 digits has it; leave its keys out");
-}
-
 /// Sections that an accuracy run ignores: it chooses observables and integrators itself.
 constexpr std::string_view not_read[] = {"observe", "integrator"};
 
@@ -83,7 +77,7 @@ int run_accuracy(const Arguments& arguments) {
   const std::string output = output_of(arguments, ".accuracy.h5");
   const config::Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
-  check_starts(config, arguments.operands[0]), check_masses(config, arguments.operands[0]);
+  check_starts(config, arguments.operands[0]);
   const results::OutputPlace place(output, {.command = "accuracy", .title = config.title}, arguments.has("force"));
   storage::require_idle(output);
   if (!arguments.has("quiet")) warn(config, not_read);

@@ -47,13 +47,14 @@ double range_error(double low, double high, const observables::Range& reference)
   return size > 0 ? error / size : error;
 }
 
-std::vector<Event> events_of(const point::PointResult& result) {
+/// The events of a run; `is_in_housing`: of a loose mass.
+std::vector<Event> events_of(const point::PointResult& result, bool is_in_housing) {
   std::vector<Event> events;
   for (const observables::LoggedImpact& impact : result.log)
     events.push_back({Event::Kind::impact, impact.side, impact.time, impact.before, 0.0, impact.after});
   for (const motion::Rest& rest : result.rests) events.push_back(event_of(rest));
   std::ranges::stable_sort(events, {}, &Event::time);  // an impact before the rest that it begins
-  return events;
+  return is_in_housing ? with_slow_impacts_summed(events) : events;
 }
 
 /// A trial ready to run: the scene observed for its errors, the same without observables for its time, and the
@@ -70,6 +71,7 @@ observables::Observe harmonics_over(const point::Problem& scene, double duration
   observables::Observe observe;
   observe.harmonics = highest_harmonic, observe.harmonics_method = observables::HarmonicsMethod::exact;
   observe.base_frequency = observables_over(scene, duration).base_frequency;
+  if (has_loose_mass(scene.loose)) observe.frame = Frame::absolute;  // in which it is computed
   return observe;
 }
 observables::Observe everything_over(const point::Problem& scene, double duration) {
@@ -222,7 +224,7 @@ class AccuracyRun {
                            range_error(result.v_min, result.v_max, reference.v_range));
     if (result.in_lanes) return compare_counts(result, reference, row);
     const double period = period_of(scene_.oscillator);
-    const ContactErrors errors = compare(events_of(result), reference.events, period / 2);
+    const ContactErrors errors = compare(events_of(result, has_loose_mass(scene_.loose)), reference.events, period / 2);
     if (errors.paired > 0) row.contact_time = errors.time / period, row.contact_speed = errors.speed;
     if (errors.rests_paired > 0) row.rest = errors.rest / period;
     row.missed = static_cast<double>(errors.missed), row.extra = static_cast<double>(errors.extra);

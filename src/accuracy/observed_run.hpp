@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "accuracy/run_record.hpp"
+#include "motion/walls.hpp"
 #include "observables/exact_harmonics.hpp"
 #include "observables/extrema_observer.hpp"
 #include "point/rounded.hpp"
@@ -44,11 +45,20 @@ class RunObserver {
     if (harmonics_) extrema_.impact(impact);
   }
 
+  void strike(const motion::Strike& strike) {
+    events.push_back(event_of(strike.in_housing()));
+    if (harmonics_ && strike.time > 0) extrema_.strike(strike);
+  }
+  template <class A>
+  void hold(const A&, const motion::Rest& hold) {
+    events.push_back(event_of(hold));
+  }
+
   void reversal(const motion::Reversal& reversal) { events.push_back(event_of(reversal)); }
   void touch(const motion::Touch& touch) { events.push_back(as_impact(event_of(touch))); }
 
   void finish(RunRecord& record) {
-    record.events = std::move(events);
+    record.events = E.loose ? with_slow_impacts_summed(events) : std::move(events);
     if (!harmonics_) return;
     harmonics_->finish(record.x, record.duration);
     record.harmonics = harmonics_->displacement(), record.v_harmonics = harmonics_->velocity();
@@ -68,6 +78,7 @@ template <class Number>
 motion::State<Number> start_of(const point::Problem& scene) {
   motion::State<Number> state;
   state.x = scene.start.displacement, state.v = scene.start.velocity;
+  if (has_loose_mass(scene.loose)) state.loose = motion::loose_start<Number>(scene);
   return state;
 }
 
@@ -95,6 +106,10 @@ RunRecord run_from(const point::Problem& scene, motion::State<Number> state, con
   RunObserver<Number, E> observer(scene, observables);
   record.outcome = run_unless(stopped, integrator, state, turns, observer);
   record.x = static_cast<double>(state.x), record.v = static_cast<double>(state.v);
+  if constexpr (E.loose) {
+    const auto [z, w] = motion::place_in_housing(state, scene.loose);
+    record.z = static_cast<double>(z), record.w = static_cast<double>(w);
+  }
   record.impacts = integrator.impacts(), record.evaluations = integrator.evaluations();
   observer.finish(record);
   return record;

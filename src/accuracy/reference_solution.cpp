@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "accuracy/comparison.hpp"
+#include "motion/walls.hpp"
+#include "point/exact_motion.hpp"
 #include "point/point.hpp"
 #include "stepping/run.hpp"
 
@@ -44,6 +46,19 @@ bool same_motion(const RunRecord& exact, const Start& in_double) {
   return std::max(std::abs(exact.x - in_double.displacement), std::abs(exact.v - in_double.velocity)) <= 1e-6 * size;
 }
 
+/// Starts a loose mass at a place between its walls, to rounding.
+void put_loose_mass(point::Problem& scene, double z, double w) {
+  scene.loose.place = std::clamp(z, scene.loose.lower, scene.loose.upper), scene.loose.velocity = w;
+}
+
+/// Starts both masses of a scene on its steady motion, whose result tells of the main mass alone.
+void start_on_steady_motion(point::Problem& scene) {
+  const steady::ObservedTime found = point::ExactMotion::of(scene)->find_steady();
+  const auto [z, w] = motion::place_in_housing(found.from, scene.loose);
+  scene.start.displacement = found.from.x, scene.start.velocity = found.from.v;
+  put_loose_mass(scene, z, w);
+}
+
 /// Finds the steady motion with a tolerance of at most `steady_tolerance`: a loose one may find another motion.
 void find_steady_motion(point::Problem scene, const std::function<bool()>& stopped, ReferenceSolution& found) {
   scene.time.tolerance = std::min(scene.time.tolerance, steady_tolerance);
@@ -52,12 +67,16 @@ void find_steady_motion(point::Problem scene, const std::function<bool()>& stopp
   if (result.status != steady::Status::periodic || result.found_by == steady::FoundBy::standstill) return;
   const double periods = result.observed_turns, duration = periods * period_of(scene.oscillator);
   point::Problem on_period = scene;
-  on_period.start = result.end;
+  if (has_loose_mass(scene.loose))
+    start_on_steady_motion(on_period);
+  else
+    on_period.start = result.end;
   on_period.time.mode = steady::Mode::transient, on_period.time.duration = duration;
   found.periodic = periodic_reference(on_period, periods, observables_over(scene, duration), stopped);
   if (found.periodic && !same_motion(*found.periodic, on_period.start)) found.periodic.reset();
   if (!found.periodic) return;
   on_period.start.displacement = found.periodic->x, on_period.start.velocity = found.periodic->v;
+  if (has_loose_mass(scene.loose)) put_loose_mass(on_period, found.periodic->z, found.periodic->w);
   found.on_period = on_period, found.steady_periods = periods;
 }
 

@@ -1,5 +1,6 @@
 #include "accuracy/run_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "accuracy/observed_run.hpp"
@@ -38,7 +39,28 @@ std::vector<Event> with_rests_joined(const std::vector<Event>& events) {
   return joined;
 }
 
+std::vector<Event> with_slow_impacts_summed(const std::vector<Event>& events) {
+  constexpr double slow = 1e-6;
+  double fastest = 0.0;
+  for (const Event& event : events) fastest = std::max(fastest, event.speed());
+  std::vector<Event> summed;
+  for (const Event& event : events) {
+    const auto is_of_its_chatter = [&](const Event& impact) {
+      return impact.kind == Event::Kind::impact && impact.side == event.side && impact.speed() <= slow * fastest;
+    };
+    double begin = event.time;
+    while (event.kind == Event::Kind::rest && !summed.empty() && is_of_its_chatter(summed.back()))
+      begin = summed.back().time, summed.pop_back();
+    if (begin < event.time) summed.push_back({Event::Kind::chatter, event.side, begin, 0.0, event.time - begin});
+    summed.push_back(event);
+  }
+  return summed;
+}
+
 RunRecord record_of(const point::Problem& scene, double duration) {
+  if (has_loose_mass(scene.loose))
+    return point::with_every_effect_and_mass(
+        scene, [&]<Effects effects>() { return run_over<double, effects>(scene, duration, std::nullopt); });
   const auto motion = point::ExactMotion::of(scene);
   point::MotionRecorder recorder(motion->stops());
   recorder.keep_events();
@@ -56,7 +78,7 @@ RunRecord record_of(const point::Problem& scene, double duration) {
 }
 RunRecord reference_of(const point::Problem& scene, double duration,
                        const std::optional<RecordObservables>& observables, const std::function<bool()>& stopped) {
-  return point::with_every_effect(
+  return point::with_every_effect_and_mass(
       scene, [&]<Effects effects>() { return run_over<FiftyDigits, effects>(scene, duration, observables, stopped); });
 }
 
@@ -64,10 +86,11 @@ std::optional<RunRecord> periodic_reference(const point::Problem& scene, double 
                                             const RecordObservables& observables,
                                             const std::function<bool()>& stopped) {
   if (periods != std::floor(periods)) return std::nullopt;
-  const auto exact = point::fixed_point(scene, start_of<double>(scene), static_cast<std::int64_t>(periods), stopped);
+  const auto find = has_loose_mass(scene.loose) ? point::fixed_point_in_housing : point::fixed_point;
+  const auto exact = find(scene, start_of<double>(scene), static_cast<std::int64_t>(periods), stopped);
   if (!exact) return std::nullopt;
   const double duration = periods * period_of(scene.oscillator);
-  return point::with_every_effect(scene, [&]<Effects effects>() {
+  return point::with_every_effect_and_mass(scene, [&]<Effects effects>() {
     return run_from<FiftyDigits, effects>(scene, exact->start, FiftyDigits(periods), duration, observables, stopped);
   });
 }

@@ -22,6 +22,10 @@ using motion::Event;
 /// Joins the parts into which stroboscopic sections cut a rest or a chatter: then there is one for each time on a stop.
 [[nodiscard]] std::vector<Event> with_rests_joined(const std::vector<Event>& events);
 
+/// Takes the slow impacts that end a chatter of a loose mass on a wall, up to a millionth of the fastest, for a summed
+/// end: methods take as many of them as their digits can tell.
+[[nodiscard]] std::vector<Event> with_slow_impacts_summed(const std::vector<Event>& events);
+
 /// Whether a chatter consists of such events: impacts and, under friction, the turns between them.
 [[nodiscard]] constexpr bool is_of_chatter(const Event& event) {
   return event.kind == Event::Kind::impact || event.kind == Event::Kind::reversal;
@@ -33,6 +37,7 @@ struct RunRecord {
   std::vector<Event> events{};
   double duration = 0.0;
   double x = 0.0, v = 0.0;                  ///< at the end
+  double z = 0.0, w = 0.0;                  ///< of a loose mass in its housing, at the end
   double impacts = 0.0;                     ///< number of impacts
   double evaluations = 0.0;                 ///< of arcs
   observables::Range x_range{}, v_range{};  ///< if observables are asked for

@@ -83,8 +83,6 @@ void check_uses(const Settings& settings) {
   };
   if (!named_parameters(settings, "observe", "sensitivity").empty())
     refuse_key("observe", "sensitivity", "leave it out, and vary a key in [sweep]");
-  if (settings.text("integrator", "method") != "exact")
-    refuse_key("integrator", "method", "take \"exact\", the only one that has it");
   if (const Setting* const along = settings.find("branch", "along"))
     refuse(along->key_location, "[branch]", "leave the section out, and vary the key in [sweep]");
 }

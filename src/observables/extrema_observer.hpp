@@ -6,6 +6,7 @@
 
 #include "math/bernstein.hpp"
 #include "motion/polynomial_arc.hpp"
+#include "motion/polynomial_in_housing.hpp"
 #include "observables/absolute_arc.hpp"
 #include "observables/extrema.hpp"
 #include "observables/loose_arc.hpp"
@@ -33,7 +34,7 @@ class Extrema::Observer {
     const double part = arc.length() > 0 ? length / arc.length() : 0.0;
     Bernstein<double> offset = arc.offset(), velocity = arc.velocity();
     offset = split_off(offset, part), velocity = split_off(velocity, part);
-    if (absolute_ != nullptr) return include_absolute(arc, begin, length, offset, velocity);
+    if (absolute_ != nullptr) return include_absolute(x_, v_, arc, begin, length, offset, velocity);
     include_polynomial(x_, offset, arc.anchor());
     include_polynomial(v_, velocity);
   }
@@ -72,7 +73,19 @@ class Extrema::Observer {
     if (absolute_ == nullptr) return look_at_place(y_, loose, length);
     look_at_place(y_, AbsoluteArc(loose, *absolute_->frame, Stops{}, begin), length);
   }
+  template <Effects E>
+  void in_housing(const motion::PolynomialInHousing<E>& arc, double begin, double length) {
+    if (!(length > 0)) return;
+    Bernstein<double> place = arc.offset(), way = arc.way();
+    include_polynomial(z_, split_off(place, length / arc.length()), arc.anchor());
+    include_loose(arc.main(), begin, length, way, arc.anchor());
+  }
   /// While a wall presses it, a loose mass moves with the main mass.
+  template <Effects E>
+  void hold(const motion::PolynomialArc<E>& arc, const motion::Rest& hold) {
+    z_.include(hold.position);
+    if (hold.length > 0) include_loose(arc, hold.time, hold.length, arc.offset(), hold.position);
+  }
   template <Effects E>
   void hold(const motion::Arc<double, E>& arc, const motion::Rest& hold) {
     z_.include(hold.position);
@@ -122,6 +135,16 @@ class Extrema::Observer {
     evaluations_ += search.evaluations();
   }
 
+  /// The displacement of a loose mass over a part of a step: a polynomial, `apart` from the anchor of the main mass.
+  template <motion::Polynomial A>
+  void include_loose(const A& main, double begin, double length, Bernstein<double> way, double apart) {
+    ++evaluations_;
+    way = split_off(way, length / main.length());
+    if (absolute_ == nullptr) return include_polynomial(y_, way, main.anchor() + apart);
+    Range speeds;  // aren't asked for
+    include_absolute(y_, speeds, main, begin, length, way, way, apart);
+  }
+
   /// A relative state in the absolute frame.
   void include_absolute(double x, double v, const SineCosine<double>& theta) {
     x_.include(x + absolute_->frame->displacement(theta)), v_.include(v + absolute_->frame->velocity(theta));
@@ -147,8 +170,8 @@ class Extrema::Observer {
   }
   /// Polynomials, by pieces of a sixty-fourth of a radian, over which the frame is one, too, to rounding.
   template <motion::Polynomial A>
-  void include_absolute(const A& arc, double begin, double length, Bernstein<double> offset,
-                        Bernstein<double> velocity) {
+  void include_absolute(Range& x, Range& v, const A& arc, double begin, double length, Bernstein<double> offset,
+                        Bernstein<double> velocity, double apart = 0.0) {
     const FrameMotion& frame = *absolute_->frame;
     const auto theta = [&](double s) {
       if (!frame.is_forced()) return frame.at(begin + s);
@@ -160,8 +183,8 @@ class Extrema::Observer {
     for (double piece = 0; piece < pieces; ++piece) {
       const SineCosine<double> right = theta((piece + 1) * step);
       const double part = 1 / (pieces - piece);
-      include_polynomial(x_, sum(split_off(offset, part), frame_over<0>(step, left, right)), arc.anchor());
-      include_polynomial(v_, sum(split_off(velocity, part), frame_over<1>(step, left, right)));
+      include_polynomial(x, sum(split_off(offset, part), frame_over<0>(step, left, right)), arc.anchor() + apart);
+      include_polynomial(v, sum(split_off(velocity, part), frame_over<1>(step, left, right)));
       left = right;
     }
   }

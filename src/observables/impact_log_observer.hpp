@@ -46,6 +46,14 @@ class ImpactLog::Observer {
     log(strike.in_housing(), strike.before, strike.after);
     values_.log.back().absolute = strike.v_before + strike.before;
   }
+  void strike_at_start(const motion::Strike& at_start) {
+    if (full_) strike(at_start);
+  }
+  /// The time for which a wall presses a loose mass is its rest in the housing.
+  template <class A>
+  void hold(const A&, const motion::Rest& hold) {
+    rest(hold);
+  }
   /// The response meets no stop.
   bool response(const ObservedSpan&, double) { return true; }
 

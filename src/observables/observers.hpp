@@ -118,9 +118,12 @@ class Observers<ObservableList<Os...>> {
     });
   }
   void strike(const motion::Strike& strike) {
-    if (!(strike.time > 0.0)) return;
     present([&](auto& observer) {
-      if constexpr (requires { observer.strike(strike); }) observer.strike(strike);
+      if (strike.time > 0.0) {
+        if constexpr (requires { observer.strike(strike); }) observer.strike(strike);
+      } else if constexpr (requires { observer.strike_at_start(strike); }) {
+        observer.strike_at_start(strike);
+      }
     });
   }
   void press(const motion::Press& press) {

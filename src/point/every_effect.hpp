@@ -1,16 +1,28 @@
 #pragma once
 
+#include <utility>
+
 #include "scene/effects.hpp"
 
 namespace clatter::point {
 
-/// Calls `function.operator()<set>()` for a set that contains every effect of a scene: one of two. A run in 50 digits
-/// wins nothing worth having by leaving effects out, and every further set would take seconds to compile.
+/// Calls `function.operator()<set>()` for a set that contains every effect of a scene without a loose mass: one of two.
+/// A run in 50 digits wins nothing worth having by leaving effects out, and every further set would take seconds to
+/// compile.
 template <class Function>
 decltype(auto) with_every_effect(const Scene& scene, Function&& function) {
   if (rotates(scene.oscillator))
     return function.template operator()<effect_sets::with_friction(Damping::light, Forcing::secular)>();
   return function.template operator()<effect_sets::with_friction(Damping::heavy, Forcing::regular)>();
+}
+
+/// The same for a scene that may have a loose mass, which has two sets of its own.
+template <class Function>
+decltype(auto) with_every_effect_and_mass(const Scene& scene, Function&& function) {
+  if (!has_loose_mass(scene.loose)) return with_every_effect(scene, std::forward<Function>(function));
+  if (rotates(scene.oscillator))
+    return function.template operator()<effect_sets::with_loose_mass(Damping::light, Forcing::secular)>();
+  return function.template operator()<effect_sets::with_loose_mass(Damping::heavy, Forcing::regular)>();
 }
 
 }  // namespace clatter::point

@@ -22,4 +22,9 @@ struct FixedPoint {
 [[nodiscard]] std::optional<FixedPoint> fixed_point(const Problem& problem, const motion::State<double>& near,
                                                     std::int64_t periods, const std::function<bool()>& stopped = {});
 
+/// The same with a loose mass.
+[[nodiscard]] std::optional<FixedPoint> fixed_point_in_housing(const Problem& problem,
+                                                               const motion::State<double>& near, std::int64_t periods,
+                                                               const std::function<bool()>& stopped = {});
+
 }  // namespace clatter::point

@@ -6,6 +6,7 @@
 #include "motion/arc.hpp"
 #include "motion/dry_friction.hpp"
 #include "motion/state.hpp"
+#include "motion/walls.hpp"
 
 namespace clatter::point {
 
@@ -20,7 +21,9 @@ namespace clatter::point {
           .offset = static_cast<double>(state.offset),
           .within = state.within,
           .pressed = state.pressed,
-          .chatters = state.chatters};
+          .chatters = state.chatters,
+          .loose = {state.loose.wall, static_cast<double>(state.loose.place), static_cast<double>(state.loose.speed),
+                    state.loose.pressed}};
 }
 
 /// Shows the arcs of a run in 50 digits in double, each rounded at its start: an error of a few roundings, which
@@ -29,7 +32,10 @@ template <Effects E>
 class InDouble {
  public:
   explicit InDouble(const Scene& scene)
-      : stops_(scene.stops), constants_(scene.oscillator), slips_(constants_, scene.friction, scene.stops) {}
+      : stops_(scene.stops),
+        constants_(scene.oscillator),
+        slips_(constants_, scene.friction, scene.stops),
+        walls_(constants_, scene.loose) {}
 
   /// Calls `function(arc)` with an arc in double.
   template <class Number, Effects Of, class Function>
@@ -40,6 +46,12 @@ class InDouble {
         const auto stop = motion::soft_stop_at<double>(stops_, side);
         return show_with(arc, motion::ArcConstants<double, Of>::in_contact(free(arc), stop), function);
       }
+    }
+    if constexpr (E.loose) {
+      if (arc.constants().carried != 0)
+        return walls_.carrying.with_constants([&]<Effects Both>(const motion::ArcConstants<double, Both>& both) {
+          if constexpr (Both == Of) show_with(arc, both, function);
+        });
     }
     if constexpr (Of == E.arc()) show_with(arc, free(arc), function);
   }
@@ -66,6 +78,7 @@ class InDouble {
   Stops stops_;
   motion::ArcConstants<double, E.arc()> constants_;
   [[no_unique_address]] std::conditional_t<E.friction, motion::Slips<double, E.arc()>, motion::NoSlips> slips_;
+  [[no_unique_address]] std::conditional_t<E.loose, motion::Walls<double>, motion::NoWalls> walls_;
 };
 
 }  // namespace clatter::point

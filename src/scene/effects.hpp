@@ -212,18 +212,25 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
   return effect_sets::complete(damping, Forcing::regular);
 }
 
-/// The same for a scene, which may have soft stops.
+/// The same for a scene, which may have soft stops, friction or a loose mass.
 [[nodiscard]] inline Effects general_effects(const Scene& scene) {
   const Damping damping = rotates(scene.oscillator) ? Damping::light : Damping::heavy;
+  if (has_loose_mass(scene.loose)) return effect_sets::with_loose_mass(damping, Forcing::regular);
   if (has_friction(scene.friction)) return effect_sets::with_friction(damping, Forcing::regular);
   if (!has_soft_stop(scene.stops)) return general_effects(scene.oscillator);
   return effect_sets::with_soft_stops(damping, Forcing::regular);
 }
 
-/// Calls `function.operator()<set>()` for one of the two sets that general methods are compiled with. Each contains all
-/// effects of its scenes: beside their evaluations of the equation no effect costs anything worth leaving it out.
+/// Calls `function.operator()<set>()` for one of the sets that general methods are compiled with: two without a loose
+/// mass and two with it. Each contains all effects of its scenes: beside their evaluations of the equation no effect
+/// costs anything worth leaving it out.
 template <class Function>
 decltype(auto) with_general_effects(const Scene& scene, Function&& function) {
+  if (has_loose_mass(scene.loose)) {
+    if (rotates(scene.oscillator))
+      return function.template operator()<effect_sets::with_loose_mass(Damping::light, Forcing::regular)>();
+    return function.template operator()<effect_sets::with_loose_mass(Damping::heavy, Forcing::regular)>();
+  }
   if (rotates(scene.oscillator))
     return function.template operator()<effect_sets::with_friction(Damping::light, Forcing::regular)>();
   return function.template operator()<effect_sets::with_friction(Damping::heavy, Forcing::regular)>();

@@ -6,10 +6,13 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/util/odeint_error.hpp>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
 #include "motion/polynomial_arc.hpp"
+#include "motion/polynomial_in_housing.hpp"
+#include "stepping/dense_events.hpp"
 #include "stepping/event_driven.hpp"
 #include "stepping/integration.hpp"
 
@@ -23,6 +26,9 @@ namespace clatter::stepping {
 /// without crossing it counts as free of contact. A contact that the polynomial misses by its own error is lost.
 /// Chatter, rest and release follow the exact integrator's rules; displacement is carried as the distance from the last
 /// stop, so that the shortest flights keep their digits.
+///
+/// With a loose mass its place z in the housing and z' are integrated beside x and x'. The dense output of z finds its
+/// impacts, and that of x'' the end of a time for which a wall presses it.
 ///
 /// Each flight and each forcing period begins with a step whose size depends on the state alone: a period is a function
 /// of the state at its beginning, so a motion can repeat.
@@ -44,7 +50,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
                                          double anchor, double horizon) {
     go_on(this->constants(), state, start, anchor);
     ArcToEvent<DenseArc> flight{standing(this->constants(), state)};
-    if (const Side side = entered(); side != Side::none) {
+    if (const Side side = entered(this->stops(), anchor_, here_[0], here_[1]); side != Side::none) {
       flight.crossing = {0, side, 0.0, start};
       flight.crossing.motion.x =
           motion::stop_at<double>(this->stops(), side).position;  // the step ended there, to rounding
@@ -56,7 +62,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       flight.crossing = {0, Side::none, 0.0, start, 0, false};
       return flight;
     }
-    motion::Crossing<double>& contact = flight.crossing = first_contact(flight.arc, horizon);
+    motion::Crossing<double>& contact = flight.crossing = first_contact(flight.arc, this->stops(), horizon);
     const double turns = state.phase_turns + contact.elapsed / this->period();
     contact.resolved = this->finite(contact.motion.x) && (contact.side != Side::none || turns > state.phase_turns);
     if (contact.side == Side::none && contact.elapsed < horizon) reached_ = {contact.motion.x, contact.motion.v, turns};
@@ -93,9 +99,68 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     return flight;
   }
 
+  /// The next step of a loose mass in its housing, and its first contact with a wall.
+  [[nodiscard]] FlightInHousing<motion::PolynomialInHousing<E.arc()>> fly_in_housing(
+      const motion::State<double>& state, const motion::Motion<double>& start, double anchor,
+      const motion::RelativeStart<double>& loose, const motion::Walls<double>& walls,
+      double horizon) requires(E.loose) {
+    const double sign = state.loose.place == 0 ? sign_of(state.loose.wall) : 0, towards = walls.load - start.a;
+    go_on_from({start.offset, start.v, loose.offset, loose.w}, -sign * loose.w, sign * towards, this->constants(),
+               state, anchor);
+    FlightInHousing<motion::PolynomialInHousing<E.arc()>> flight{
+        {standing(this->constants(), state), loose.origin, walls.load, constant(here_[2]), constant(here_[3])}};
+    motion::Crossing<double>& contact = flight.contact = {0, Side::none, 0.0, flight.arc.start()};
+    if (contact.side = entered(walls.places, loose.origin, here_[2], here_[3]); contact.side != Side::none)
+      return flight;
+    try {
+      const Dense dense = dense_step(this->constants(), walls.load);
+      flight.arc = {arc_of(this->constants(), state, dense, start.a), loose.origin, walls.load,
+                    dense.over(2, dense.begin[3], dense.end[3]), dense.over(3, towards, walls.load - dense.a_end)};
+    } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
+      contact.resolved = false;
+      return flight;
+    }
+    contact = first_contact(flight.arc, walls.places, horizon);
+    const motion::Motion<double> main = flight.arc.main().at(contact.elapsed);
+    const double turns = state.phase_turns + contact.elapsed / this->period();
+    const bool is_finite = this->finite(contact.motion.x) && this->finite(main.x);
+    if (!is_finite) contact.motion.x = nan;
+    contact.resolved = is_finite && (contact.side != Side::none || turns > state.phase_turns);
+    if (contact.side == Side::none && contact.elapsed < horizon) reached_ = {main.x, main.v, turns};
+    return flight;
+  }
+
+  /// The next step of both masses as one, until the wall would have to pull.
+  template <Effects Both>
+  [[nodiscard]] ArcToEvent<motion::PolynomialArc<Both>> carry(const motion::ArcConstants<double, Both>& constants,
+                                                              const motion::State<double>& state,
+                                                              const motion::Motion<double>& start, double anchor,
+                                                              const Pressing<double>& pressing,
+                                                              double horizon) requires(E.loose) {
+    go_on(constants, state, start, anchor);
+    ArcToEvent<motion::PolynomialArc<Both>> flight{standing(constants, state), {1, Side::none, 0.0, start}};
+    const double sign = sign_of(pressing.wall);
+    if (pressing.wall != Side::none && sign * (pressing.load - start.a) <= 0 && sign * constants.jerk(start) > 0) {
+      flight.crossing.margin = 0;
+      return flight;
+    }
+    try {
+      flight.arc = step(constants, state, start.a);
+    } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
+      flight.crossing.resolved = false;
+      return flight;
+    }
+    motion::Crossing<double>& crossing = flight.crossing = end_of_press(flight.arc, pressing, horizon);
+    const double turns = state.phase_turns + crossing.elapsed / this->period();
+    crossing.resolved = this->finite(crossing.motion.x) && (crossing.margin == 0 || turns > state.phase_turns);
+    if (crossing.margin == 1 && crossing.elapsed < horizon) reached_ = {crossing.motion.x, crossing.motion.v, turns};
+    return flight;
+  }
+
  private:
-  using Values = std::array<double, 2>;  ///< distance from the anchor, velocity
-  using Place = std::array<double, 3>;   ///< x, v, turns
+  /// Distance from the anchor, velocity; with a loose mass its distance from the origin in its housing, and z'.
+  using Values = std::array<double, E.loose ? 4 : 2>;
+  using Place = std::array<double, 3>;  ///< x, v, turns
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   static constexpr Place nowhere{nan, nan, nan};  // equal to no Place
   using Pair = boost::numeric::odeint::runge_kutta_dopri5<Values>;
@@ -123,6 +188,12 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     const double moves =
         std::max({response, std::abs(o.load), std::abs(scene.start.displacement), std::abs(scene.start.velocity)});
     const double size = std::min((scene.stops.upper - scene.stops.lower) / 2, moves);
+    if constexpr (E.loose) {
+      const LooseMass& loose = scene.loose;
+      const double both = std::max({size, std::abs(loose.load), std::abs(loose.velocity)});
+      const double in_housing = std::min((loose.upper - loose.lower) / 2, both);
+      return in_housing > 0 ? in_housing : 1.0;
+    }
     return size > 0 ? size : 1.0;
   }
 
@@ -130,20 +201,22 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   template <Effects Of>
   void go_on(const motion::ArcConstants<double, Of>& constants, const motion::State<double>& state,
              const motion::Motion<double>& start, double anchor) {
-    const bool goes_on = Place{state.x, state.v, state.phase_turns} == reached_;
-    if (!goes_on) begin(constants, state, start, anchor);
-    reached_ = nowhere;
+    const bool is_on_stop = state.from_stop != Side::none && start.offset == 0;
+    const double sign = is_on_stop ? sign_of(state.from_stop) : 0;
+    go_on_from({start.offset, start.v}, -sign * start.v, sign * start.a, constants, state, anchor);
   }
+  /// The same from given values, with the speed that leaves a stop and the acceleration back.
   template <Effects Of>
-  void begin(const motion::ArcConstants<double, Of>& constants, const motion::State<double>& state,
-             const motion::Motion<double>& start, double anchor) {
+  void go_on_from(const Values& from, double leaving, double pressed, const motion::ArcConstants<double, Of>& constants,
+                  const motion::State<double>& state, double anchor) {
+    const bool goes_on = Place{state.x, state.v, state.phase_turns} == reached_;
+    reached_ = nowhere;
+    if (goes_on) return;
     anchor_ = anchor, angle_ = 2 * pi<double>() * (this->start_turns() + state.phase_turns);
     double first_step = std::pow(tolerance_, 0.2) / constants.rate / 2;
-    if (state.from_stop != Side::none && start.offset == 0) {  // no longer than the flight, if the force ends it soon
-      const double leaving = -sign_of(state.from_stop) * start.v, pressed = sign_of(state.from_stop) * start.a;
-      if (leaving > 0 && pressed > 0) first_step = std::min(first_step, 2 * leaving / pressed);
-    }
-    here_ = {start.offset, start.v};
+    if (leaving > 0 && pressed > 0)  // no longer than the flight, if the force ends it soon
+      first_step = std::min(first_step, 2 * leaving / pressed);
+    here_ = from;
     stepper_.initialize(here_, 0.0, first_step);
   }
 
@@ -154,83 +227,62 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     return constants.acceleration(constants.from_equilibrium(anchor_ + y[0], anchor_, y[0]), y[1], sine);
   }
 
+  [[nodiscard]] static Bernstein<double> constant(double value) {
+    Bernstein<double> c;
+    c.fill(value);
+    return c;
+  }
   template <Effects Of>
   [[nodiscard]] motion::PolynomialArc<Of> standing(const motion::ArcConstants<double, Of>& constants,
                                                    const motion::State<double>& state) const {
-    Bernstein<double> offset, velocity;
-    offset.fill(here_[0]), velocity.fill(here_[1]);
-    return {constants, anchor_, this->start_turns() + state.phase_turns, 0.0, offset, velocity};
+    const double turns = this->start_turns() + state.phase_turns;
+    return {constants, anchor_, turns, 0.0, constant(here_[0]), constant(here_[1])};
   }
 
-  /// Makes a step from here, with acceleration a at its beginning, and returns its dense output as an arc.
+  /// A step and its dense output.
+  struct Dense {
+    double length = 0.0;  ///< in tau
+    double a_end = 0.0;   ///< acceleration at its end
+    Values begin{}, end{}, third{}, two_thirds{};
+
+    /// One of the values over the step, by its rates at both ends, too.
+    [[nodiscard]] Bernstein<double> over(std::size_t i, double rate, double rate_end) const {
+      return quintic(length, {begin[i], rate}, {end[i], rate_end}, {third[i], two_thirds[i]});
+    }
+  };
+  /// Makes a step from here; `load` is that of a loose mass in flight.
+  template <Effects Of>
+  [[nodiscard]] Dense dense_step(const motion::ArcConstants<double, Of>& constants, double load) {
+    const auto equation = [&](const Values& y, Values& rate, double s) {
+      const double a = acceleration(constants, y, s);
+      rate = {y[1], a};
+      if constexpr (E.loose)
+        if (constants.carried == 0) rate[2] = y[3], rate[3] = load - a;
+    };
+    const auto [from, to] = stepper_.do_step(equation);
+    Dense dense{.length = to - from, .begin = std::exchange(here_, stepper_.current_state())};
+    stepper_.calc_state(from + dense.length / 3, dense.third);
+    stepper_.calc_state(from + 2 * dense.length / 3, dense.two_thirds);
+    dense.end = here_, dense.a_end = acceleration(constants, here_, to);
+    return dense;
+  }
+  /// The arc of a step, with acceleration a at its beginning.
+  template <Effects Of>
+  [[nodiscard]] motion::PolynomialArc<Of> arc_of(const motion::ArcConstants<double, Of>& constants,
+                                                 const motion::State<double>& state, const Dense& dense,
+                                                 double a) const {
+    const double turns = this->start_turns() + state.phase_turns;
+    return {constants,
+            anchor_,
+            turns,
+            dense.length,
+            dense.over(0, dense.begin[1], dense.end[1]),
+            dense.over(1, a, dense.a_end)};
+  }
   template <Effects Of>
   [[nodiscard]] motion::PolynomialArc<Of> step(const motion::ArcConstants<double, Of>& constants,
                                                const motion::State<double>& state, double a) {
-    const auto equation = [&](const Values& y, Values& rate, double s) {
-      rate = {y[1], acceleration(constants, y, s)};
-    };
-    const auto [from, to] = stepper_.do_step(equation);
-    const double length = to - from;
-    const Values begin = std::exchange(here_, stepper_.current_state());
-    Values third, two_thirds;
-    stepper_.calc_state(from + length / 3, third), stepper_.calc_state(from + 2 * length / 3, two_thirds);
-    const double a_end = acceleration(constants, here_, to);
-    return {constants,
-            anchor_,
-            this->start_turns() + state.phase_turns,
-            length,
-            quintic(length, {begin[0], begin[1]}, {here_[0], here_[1]}, {third[0], two_thirds[0]}),
-            quintic(length, {begin[1], a}, {here_[1], a_end}, {third[1], two_thirds[1]})};
-  }
-
-  /// Distance from the anchor to a stop, positive inside.
-  [[nodiscard]] double gap(Side side) const {
-    return side == Side::upper ? this->stops().upper - anchor_ : anchor_ - this->stops().lower;
-  }
-
-  /// The stop that the mass is on and moves into; none if there isn't one.
-  [[nodiscard]] Side entered() const {
-    for (const Side side : {Side::lower, Side::upper})
-      if (gap(side) - sign_of(side) * here_[0] <= 0 && sign_of(side) * here_[1] > 0) return side;
-    return Side::none;
-  }
-
-  /// The first crossing of a stop by the polynomial; else its end, or the horizon.
-  [[nodiscard]] motion::Crossing<double> first_contact(const DenseArc& arc, double horizon) const {
-    motion::Crossing<double> first{0, Side::none, std::min(arc.length(), horizon), {}};
-    for (const Side side : {Side::lower, Side::upper}) {
-      if (std::isinf(gap(side))) continue;
-      Bernstein<double> c = arc.offset();
-      for (double& y : c) y = gap(side) - sign_of(side) * y;
-      c[0] = std::max(c[0], 0.0);
-      if (c[0] == 0 && arc.velocity()[0] == 0)  // released: the force leads away, but the polynomial's error may not
-        c[1] = 0, c[2] = std::max(c[2], 0.0);
-      const auto root = FirstRoot<double>::of(c);
-      if (root && *root * arc.length() <= first.elapsed) first.side = side, first.elapsed = *root * arc.length();
-    }
-    first.motion = arc.at(first.elapsed);
-    if (first.side == Side::none) return first;
-    first.motion.x = motion::stop_at<double>(this->stops(), first.side).position;
-    if (sign_of(first.side) * first.motion.v <= 0) first.motion.v = 0;  // the two polynomials differ by their errors
-    return first;
-  }
-
-  /// The first of some margins that the polynomial carries below 0; else its end, or the horizon.
-  template <Effects Of, std::size_t count>
-  [[nodiscard]] static motion::Crossing<double> first_crossing(const motion::PolynomialArc<Of>& arc,
-                                                               const std::array<motion::Margin<double>, count>& margins,
-                                                               double horizon) {
-    motion::Crossing<double> first{count, Side::none, std::min(arc.length(), horizon), {}};
-    for (std::size_t i = 0; i < count; ++i) {
-      Bernstein<double> c;
-      for (std::size_t j = 0; j < c.size(); ++j)
-        c[j] = margins[i].constant + margins[i].place * arc.offset()[j] + margins[i].speed * arc.velocity()[j];
-      c[0] = std::max(c[0], 0.0);
-      const auto root = FirstRoot<double>::of(c);
-      if (root && *root * arc.length() <= first.elapsed) first.margin = i, first.elapsed = *root * arc.length();
-    }
-    first.motion = arc.at(first.elapsed);
-    return first;
+    return arc_of(constants, state, dense_step(constants, 0.0), a);
   }
 
   double tolerance_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "motion/arc.hpp"
+#include "motion/pull_rule.hpp"
 #include "stepping/event_driven.hpp"
 
 namespace clatter::stepping {
@@ -44,6 +45,33 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
       const std::array<motion::Margin<Number>, count>& margins, const Number& horizon) {
     ArcToEvent<motion::Arc<Number, Within>> flight{motion::Arc<Number, Within>(constants, start, anchor)};
     flight.crossing = first_crossing(flight.arc, margins, horizon);
+    this->count_evaluations(flight.crossing.evaluations);
+    return flight;
+  }
+
+  /// The flight of a loose mass in its housing up to its next impact on a wall, or to the horizon.
+  [[nodiscard]] FlightInHousing<motion::RelativeArc<Number, E.arc()>> fly_in_housing(
+      const motion::State<Number>&, const motion::Motion<Number>& start, const Number& anchor,
+      const motion::RelativeStart<Number>& loose, const motion::Walls<Number>& walls,
+      const Number& horizon) requires(E.loose) {
+    const motion::Arc<Number, E.arc()> main(this->constants(), start, anchor);
+    FlightInHousing<motion::RelativeArc<Number, E.arc()>> flight{{main, loose, walls.load}};
+    flight.contact = next_contact(flight.arc, walls.places, horizon);
+    this->count_evaluations(flight.contact.evaluations);
+    return flight;
+  }
+  /// Both masses as one while a wall presses the loose one, or for all of the time.
+  template <Effects Both>
+  [[nodiscard]] ArcToEvent<motion::Arc<Number, Both>> carry(const motion::ArcConstants<Number, Both>& constants,
+                                                            const motion::State<Number>&,
+                                                            const motion::Motion<Number>& start, const Number& anchor,
+                                                            const Pressing<Number>& pressing,
+                                                            const Number& horizon) requires(E.loose) {
+    ArcToEvent<motion::Arc<Number, Both>> flight{motion::Arc<Number, Both>(constants, start, anchor)};
+    if (pressing.wall == Side::none)
+      flight.crossing = {1, Side::none, horizon, flight.arc.at(horizon)};
+    else
+      flight.crossing = end_of_press(flight.arc, pressing.wall, pressing.load, horizon);
     this->count_evaluations(flight.crossing.evaluations);
     return flight;
   }

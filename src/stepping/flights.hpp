@@ -17,8 +17,24 @@ struct ArcToEvent {
   motion::Crossing<typename A::Number> crossing{};
 };
 
+/// The same of a loose mass in its housing; the arc knows that of the main mass.
+template <class A>
+struct FlightInHousing {
+  A arc;
+  motion::Crossing<typename A::Number> contact{};  ///< its motion is that in the housing
+};
+
+/// A wall that presses a loose mass.
+template <class Number>
+struct Pressing {
+  Side wall;    ///< none: whatever its force is, nothing ends the time
+  Number load;  ///< y'' of the loose mass alone
+};
+
 /// Flights of the event loop, each by the method: `fly(state, motion, anchor, horizon)` between rigid stops, and
-/// `fly_within(constants, state, motion, anchor, margins, horizon)` up to the first of some margins that falls to 0.
+/// `fly_within(constants, state, motion, anchor, margins, horizon)` up to the first of some margins that falls to 0;
+/// with a loose mass `fly_in_housing(state, motion, anchor, start, walls, horizon)` up to its next impact, and
+/// `carry(constants, state, motion, anchor, pressing, horizon)` of both masses as one.
 template <class Method, class N, Effects E>
 class Flights : public IntegratorBase<N, E> {
   using Base = IntegratorBase<N, E>;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
-#include "motion/pull_rule.hpp"
 #include "motion/relative_arc.hpp"
 #include "motion/walls.hpp"
 #include "stepping/soft_phases.hpp"
@@ -45,6 +45,13 @@ class LoosePhases : public SoftPhases<Method, N, E> {
     if (loose.wall == Side::none || loose.place != 0 || loose.speed != 0 || state.released) return false;
     return into(loose.wall, state) > 0;
   }
+  /// The share of a motion below which a rebound is lost in its rounding. In 50 digits, the reference for double, it
+  /// lies far below all that a double can tell, and above rounding, since each impact there takes up to a millisecond.
+  [[nodiscard]] static Number faded() {
+    if constexpr (std::numeric_limits<Number>::digits10 <= std::numeric_limits<double>::digits10)
+      return epsilon<Number>();
+    return Number(1e-30);
+  }
   /// Whether nothing can tell the rest of a chatter: a rebound with the speed w changes no digit of the motion, or
   /// doesn't let time go on.
   [[nodiscard]] bool is_faded(const motion::State<Number>& state, const Number& w, const Number& pressing) const {
@@ -54,7 +61,7 @@ class LoosePhases : public SoftPhases<Method, N, E> {
     if (!(walls_.rule.law.R < 1)) return false;
     const auto& c = this->constants();
     const Number motion = abs(state.v) + c.natural * abs(state.x - c.equilibrium);
-    return w <= epsilon<Number>() * motion || 2 * w <= pressing * epsilon<Number>() * this->period();
+    return w <= faded() * motion || 2 * w <= pressing * epsilon<Number>() * this->period();
   }
 
   template <class Observer>
@@ -71,48 +78,44 @@ class LoosePhases : public SoftPhases<Method, N, E> {
   template <class Observer>
   [[nodiscard]] Outcome run_pressed(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                     Observer& observer) {
-    return walls_.carrying.with_constants([&](const auto& constants) {
-      const motion::Arc arc = carried_arc(constants, state);
-      const auto crossing = end_of_press(arc, state.loose.wall, walls_.load, horizon_of(state, end));
-      this->count_evaluations(crossing.evaluations);
-      if (!crossing.resolved) return this->outcome_at(crossing);
-      move_as_one(state, arc, crossing.elapsed, crossing.motion, end, origin, observer);
-      if (crossing.margin == 0) state.loose.pressed = false, state.released = true;
-      return Outcome::completed;
-    });
+    const motion::Crossing<Number> crossing =
+        move_as_one(state, state.loose.wall, horizon_of(state, end), end, origin, observer);
+    if (!crossing.resolved) return this->outcome_at(crossing);
+    if (crossing.margin == 0) state.loose.pressed = false, state.released = true;
+    return Outcome::completed;
   }
   /// Holds the loose mass past an instant at which the force of its wall is zero to rounding, so its sign decides
   /// nothing. After sqrt(epsilon) of a period it is clear of rounding.
   template <class Observer>
-  void wait(motion::State<Number>& state, const Number& end, std::int64_t origin, Observer& observer) {
+  [[nodiscard]] Outcome wait(motion::State<Number>& state, const Number& end, std::int64_t origin, Observer& observer) {
     using std::min, std::sqrt;
     const Number time = min(horizon_of(state, end), Number(sqrt(epsilon<Number>()) * this->period()));
     press(state, state.loose.wall, Number(0), origin, observer);
-    walls_.carrying.with_constants([&](const auto& constants) {
-      const motion::Arc arc = carried_arc(constants, state);
-      move_as_one(state, arc, time, arc.at(time), end, origin, observer);
-    });
+    const motion::Crossing<Number> crossing = move_as_one(state, Side::none, time, end, origin, observer);
     state.loose.pressed = false;
+    return this->outcome_at(crossing);
   }
 
   [[nodiscard]] Number horizon_of(const motion::State<Number>& state, const Number& end) const {
     return (end - state.phase_turns) * this->period();
   }
-  template <Effects Of>
-  [[nodiscard]] motion::Arc<Number, Of> carried_arc(const motion::ArcConstants<Number, Of>& constants,
-                                                    const motion::State<Number>& state) const {
-    return {constants, this->motion(constants, state), this->anchor(state)};
-  }
-  template <class A, class Observer>
-  void move_as_one(motion::State<Number>& state, const A& arc, const Number& elapsed,
-                   const motion::Motion<Number>& there, const Number& end, std::int64_t origin,
-                   Observer& observer) const {
-    const double begin = this->time(state, origin), length = static_cast<double>(elapsed);
-    const Side side = state.loose.wall;
-    observer.arc(arc, begin, length);
-    if constexpr (requires { observer.hold(arc, motion::Rest{}); })
-      observer.hold(arc, motion::Rest{begin, length, side, static_cast<double>(walls_.place(side)), true});
-    go_on(state, elapsed, there, end);
+  /// Both masses as one, for a time or until a wall would have to pull.
+  template <class Observer>
+  motion::Crossing<Number> move_as_one(motion::State<Number>& state, Side pulled_by, const Number& horizon,
+                                       const Number& end, std::int64_t origin, Observer& observer) {
+    return walls_.carrying.with_constants([&](const auto& constants) {
+      const auto flight = this->method().carry(constants, state, this->motion(constants, state), this->anchor(state),
+                                               Pressing<Number>{pulled_by, walls_.load}, horizon);
+      const motion::Crossing<Number>& crossing = flight.crossing;
+      if (!crossing.resolved) return crossing;
+      const double begin = this->time(state, origin), length = static_cast<double>(crossing.elapsed);
+      const Side side = state.loose.wall;
+      observer.arc(flight.arc, begin, length);
+      if constexpr (requires { observer.hold(flight.arc, motion::Rest{}); })
+        observer.hold(flight.arc, motion::Rest{begin, length, side, static_cast<double>(walls_.place(side)), true});
+      go_on(state, crossing.elapsed, crossing.motion, end);
+      return crossing;
+    });
   }
   void go_on(motion::State<Number>& state, const Number& elapsed, const motion::Motion<Number>& there,
              const Number& end) const {
@@ -127,22 +130,20 @@ class LoosePhases : public SoftPhases<Method, N, E> {
   [[nodiscard]] Outcome run_in_housing(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                        Observer& observer) {
     const Number horizon = horizon_of(state, end);
-    const motion::Arc<Number, E.arc()> main(this->constants(), this->motion(this->constants(), state, walls_.load),
-                                            this->anchor(state));
-    const motion::RelativeArc<Number, E.arc()> arc(main, start_of(state), walls_.load);
-    const motion::Crossing<Number> contact = next_contact(arc, walls_.places, horizon);
-    this->count_evaluations(contact.evaluations);
+    const auto flight = this->method().fly_in_housing(state, this->motion(this->constants(), state, walls_.load),
+                                                      this->anchor(state), start_of(state), walls_, horizon);
+    const auto& arc = flight.arc;
+    const motion::Crossing<Number>& contact = flight.contact;
     if (!contact.resolved) return this->outcome_at(contact);
     if (contact.side != Side::none && contact.elapsed == 0 && arc.start().v == 0) {
       state.loose = {contact.side, Number(0), Number(0)};
-      wait(state, end, origin, observer);
-      return Outcome::completed;
+      return wait(state, end, origin, observer);
     }
     const double begin = this->time(state, origin), length = static_cast<double>(contact.elapsed);
-    observer.arc(main, begin, length);
+    observer.arc(arc.main(), begin, length);
     if constexpr (requires { observer.in_housing(arc, begin, length); }) observer.in_housing(arc, begin, length);
     move_loose(state.loose, contact);
-    go_on(state, contact.elapsed, main.at(contact.elapsed), end);
+    go_on(state, contact.elapsed, arc.main().at(contact.elapsed), end);
     if (contact.side == Side::none) return Outcome::completed;
     return strike(state, contact.side, contact.motion.v, origin, observer);
   }

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "motion/polynomial_arc.hpp"
-#include "stepping/integration.hpp"
-#include "stepping/integrator.hpp"
+#include "stepping/moreau_in_housing.hpp"
+#include "stepping/theta_steps.hpp"
 
 namespace clatter::stepping {
 
@@ -17,8 +17,7 @@ namespace clatter::stepping {
 ///
 /// The position moves with the mean velocity, of weight theta at the end and 1 - theta at the beginning, so the impulse
 /// acts 1 - theta of a step after its beginning, and the impact is reported there. Flights shorter than a step can't be
-/// told from rest: a rebound that the force would end within the step is taken for rest. Steps count from the
-/// stroboscopic section, and the last one before the next section is cut there.
+/// told from rest: a rebound that the force would end within the step is taken for rest.
 ///
 /// A soft stop is a force, and acts in all of a step or in none: in those in the middle of which the mass, moving on at
 /// its present velocity, would be pushed by it (eq. 50).
@@ -26,15 +25,17 @@ namespace clatter::stepping {
 /// Dry friction is an impulse at the end of a step, of at most mu over it, that takes the velocity towards 0 and not
 /// beyond: a mass sticks for whole steps. A step in which it stands, or turns back, ends without speed if the impulse
 /// of all other forces is within the static level.
+///
+/// A loose mass has a specialization.
 template <Effects E>
-class Moreau : public IntegratorBase<double, E> {
-  using Base = IntegratorBase<double, E>;
+class Moreau : public ThetaSteps<E> {
+  using Base = ThetaSteps<E>;
 
  public:
   static constexpr bool in_closed_form = false;
 
   explicit Moreau(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
-      : Base(scene, scene.stops, limits), step_(integration.step), theta_(integration.theta) {}
+      : Base(scene, integration, limits) {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and reports every step's arcs,
   /// rests and impacts with their times since the section `origin`.
@@ -72,27 +73,10 @@ class Moreau : public IntegratorBase<double, E> {
     double length, sine, v;  ///< in tau; sine of the forcing phase and velocity at its end
   };
 
-  [[nodiscard]] double next_turns(double turns, double end) const {
-    constexpr double least = 1e-6;  // of a step: rounding must not leave a stub
-    const double next = (std::floor(turns / step_ + least) + 1) * step_;
-    return next < end - least * step_ ? next : end;
-  }
-
-  template <class Constants>
-  [[nodiscard]] static double force(const Constants& constants, double x, double v, double sine) {
-    return constants.acceleration(x - constants.equilibrium, v, sine);
-  }
-
   template <class Constants>
   [[nodiscard]] Free free_step(const Constants& constants, const motion::State<double>& state, double turns) {
-    const double length = (turns - state.phase_turns) * this->period(), part = theta_ * length;
-    const double sine = constants.f == 0 ? 0.0 : std::sin(2 * pi<double>() * (this->start_turns() + turns));
-    const double at_begin = force(constants, state.x, state.v, sine_);
-    const double at_end = force(constants, state.x + (length - part) * state.v, 0.0,
-                                sine);  // without the term in v there, which is implicit
-    this->count_evaluations(1);
-    const double impulse = state.v + (length - part) * at_begin + part * at_end;
-    return {length, sine, rubbed(impulse, state.v, length) / (1 + part * (2 * constants.h + constants.spring(part)))};
+    const auto end = this->step_end(constants, state, turns);
+    return {end.length, end.sine, rubbed(end.momentum, state.v, end.length) / end.mass};
   }
 
   /// Of the momentum at the end of a step what friction leaves.
@@ -274,15 +258,8 @@ class Moreau : public IntegratorBase<double, E> {
     state.x = x, state.phase_turns += length / this->period();
   }
 
-  template <Effects Of>
-  [[nodiscard]] motion::PolynomialArc<Of> arc(const motion::ArcConstants<double, Of>& constants, double anchor,
-                                              double turns, double length, const Bernstein<double>& offset,
-                                              const Bernstein<double>& v) const {
-    return {constants, anchor, this->start_turns() + turns, length, offset, v};
-  }
+  using Base::arc, Base::force, Base::next_turns, Base::sine_, Base::theta_;
 
-  double step_, theta_;
-  double sine_ = 0.0;  ///< of the force, at the state
   double slid_ = 0.0;  ///< velocity of the last slip; 0 if the mass has stood since
 };
 

@@ -27,17 +27,15 @@ class Refusals(CommandLine):
 
     def test_what_does_not_know_it(self):
         self.assert_told(f'{SCENE}[observe]\nsensitivity = "nu"\n', ("loose_mass", "sensitivity"))
-        for method in ("dopri5", "moreau"):
-            self.assert_told(f'{SCENE}[integrator]\nmethod = "{method}"\n', ("loose_mass", "method"))
         along = f'{SCENE}[branch]\nalong = "nu"\nrange = [1, 2]\n'
         self.assert_told(along, ("loose_mass", "branch"), "branch")
 
     def test_commands_that_do_not_know_it(self):
         self.write("a.toml", SCENE + "[observe]\nextrema = true\n")
         self.assertEqual(self.clatter("run", "a.toml", "-o", "a.h5", "-q").returncode, 0)
-        for command in (("accuracy", "a.toml", "-o", "b.h5"), ("certify", "a.h5", "-o", "b.jsonl")):
-            self.assert_refused(2, "loose_mass", *command)
-            self.assertRegex(self.clatter(*command).stderr, REMEDY)
+        command = ("certify", "a.h5", "-o", "b.jsonl")
+        self.assert_refused(2, "loose_mass", *command)
+        self.assertRegex(self.clatter(*command).stderr, REMEDY)
 
     def test_what_the_main_mass_does_not_have_beside_it(self):
         beside = {"xs": "2", "stop_lower": "-3", "stop_upper": "3", "friction": "0.1", "friction_static": "0.1"}

@@ -42,7 +42,6 @@ TEST(LooseMass, is_refused_by_what_does_not_know_it) {
       {"[scene]\nloose_mass = 0.1\nloose_gap = 2\n[sweep]\nf = [1, 0]\n", "5:9", "give f or base_amplitude"},
       {carried + "[observe]\nsensitivity = \"nu\"\n", "6:1", "'sensitivity' conflicts with 'loose_mass'"},
       {carried + "[sweep]\nloose_x0 = [0, 1]\nfollow = \"loose_x0\"\n", "7:10", "only the first point would start"},
-      {carried + "[integrator]\nmethod = \"dopri5\"\n", "6:1", "'method' conflicts with 'loose_mass'; take \"exact\""},
       {carried + "[branch]\nalong = \"nu\"\nrange = [0.5, 2]\n", "6:1", "[branch] conflicts with 'loose_mass'"},
       {"[scene]\nloose_mass = 0.1\nloose_gap = 2\n[time]\nmode = \"transient\"\nduration = 9\n[observe]\nsection = 4\n",
        "8:1", "a section without a force conflicts with 'loose_mass'"},

@@ -66,6 +66,10 @@ Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord
   if (size_place > 0) result.place /= size_place;
   if (size_x > 0)
     result.end = std::max(std::abs(record.x - reference.x) / size_x, std::abs(record.v - reference.v) / size_v);
+  const double size_z = std::max(size_x, std::abs(reference.z));  // of a loose mass, else 0
+  if (size_z > 0 && size_v > 0)
+    result.end =
+        std::max({result.end, std::abs(record.z - reference.z) / size_z, std::abs(record.w - reference.w) / size_v});
   return result;
 }
 
@@ -84,6 +88,15 @@ double conditioning(const point::Problem& scene, const accuracy::RunRecord& refe
         *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();
     const double more_friction = 1 + (signs & 1 ? 1 : -1) * epsilon<double>();
     moved.friction.kinetic *= more_friction, moved.friction.static_level *= more_friction;
+    LooseMass& loose = moved.loose;
+    for (double* value : {&loose.ratio, &loose.restitution, &loose.load, &loose.velocity})
+      *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();
+    loose.restitution = std::min(loose.restitution, 1.0);
+    for (double* wall : {&loose.lower, &loose.upper}) {
+      const bool on_it = loose.place == *wall;
+      *wall *= 1 + epsilon<double>();
+      if (on_it) loose.place = *wall;
+    }
     for (double* value : {&stops.lower, &stops.upper}) {
       const bool on_it = scene.start.displacement == *value;
       *value *= 1 + epsilon<double>();

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "scene/required_effects.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
+#include "support/random.hpp"
 
 namespace clatter::support {
 
@@ -19,6 +22,41 @@ namespace clatter::support {
   point::Problem scene;
   scene.oscillator = {.damping = h, .forcing = f, .frequency = nu};
   scene.loose = {.ratio = eps, .lower = -gap, .upper = gap, .restitution = R};
+  return scene;
+}
+
+/// Scenes with a loose mass that differ in what it does. The names say how.
+struct NamedLooseScene {
+  const char* name;
+  point::Problem scene;
+};
+[[nodiscard]] inline std::vector<NamedLooseScene> every_loose_kind() {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<NamedLooseScene> scenes{{"impact damper", loose_scene(0.02, 0.005, 0.01, 1, 0.4, 0.8)},
+                                      {"heavy mass", loose_scene(0.8, 0.05, 0.4, 1.7, 0.3, 0.7)},
+                                      {"pressed", loose_scene(0.5, 0.1, 0.4, 0.6, 1, 0.3)},
+                                      {"pressed for good", loose_scene(0.3, 0.02, 0.05, 1.7, 0.3, 0.7)},
+                                      {"one wall", loose_scene(0.2, 0.1, 0.6, 1.3, 1, 0.6)},
+                                      {"heavy damping", loose_scene(0.1, 1.4, 1.5, 0.8, 0.5, 0.5)},
+                                      {"inelastic", loose_scene(0.1, 0.1, 0.5, 1.2, 0.4, 0)},
+                                      {"free and elastic", loose_scene(0.4, 0, 0, 1, 0.5, 1)}};
+  scenes[2].scene.loose.load = -0.3, scenes[2].scene.loose.lower = -0.1;
+  scenes[3].scene.loose.load = 0.2;
+  scenes[4].scene.loose.load = -0.4, scenes[4].scene.loose.upper = none;
+  scenes[7].scene.start.velocity = 0.3, scenes[7].scene.loose.velocity = 0.2;
+  return scenes;
+}
+
+/// A random scene whose loose mass strikes its walls every now and then.
+[[nodiscard]] inline point::Problem random_loose_scene(std::uint64_t index) {
+  Random random(20611, index);
+  point::Problem scene = loose_scene(random.logarithmic(1e-2, 1), random.uniform(0.02, 0.5), random.uniform(0.2, 1),
+                                     random.uniform(0.5, 2), random.logarithmic(0.1, 1), random.uniform(0.2, 0.9));
+  scene.start = {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(0, 6)};
+  scene.oscillator.load = random.uniform(-0.2, 0.2);
+  scene.loose.place = random.uniform(scene.loose.lower, scene.loose.upper);
+  scene.loose.velocity = random.uniform(-0.5, 0.5);
+  if (random.happens(0.5)) scene.loose.load = random.uniform(-0.4, 0.4);
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accuracy/run_record.hpp"
+#include "motion/walls.hpp"
 #include "scene/effects.hpp"
 #include "stepping/run.hpp"
 
@@ -18,10 +19,15 @@ accuracy::RunRecord run_by(const point::Problem& scene, double duration, Observe
     Method<effects> integrator(scene, scene.integration, limits_of(scene));
     motion::State<double> state;
     state.x = scene.start.displacement, state.v = scene.start.velocity;
+    if (has_loose_mass(scene.loose)) state.loose = motion::loose_start<double>(scene);
     accuracy::RunRecord record;
     record.duration = duration;
     record.outcome = run_for(integrator, state, duration / integrator.period(), observer);
     record.x = state.x, record.v = state.v;
+    if (has_loose_mass(scene.loose)) {
+      const auto [z, w] = motion::place_in_housing(state, scene.loose);
+      record.z = z, record.w = w;
+    }
     record.impacts = integrator.impacts(), record.evaluations = integrator.evaluations();
     return record;
   });
@@ -35,6 +41,11 @@ struct EventList {
   void arc(const A&, double, double) {}
   void rest(const motion::Rest& rest) { events.push_back(motion::event_of(rest)); }
   void impact(const motion::Impact& impact) { events.push_back(motion::event_of(impact)); }
+  void strike(const motion::Strike& strike) { events.push_back(motion::event_of(strike.in_housing())); }
+  template <class A>
+  void hold(const A&, const motion::Rest& hold) {
+    events.push_back(motion::event_of(hold));
+  }
   void reversal(const motion::Reversal& reversal) { events.push_back(motion::event_of(reversal)); }
   void touch(const motion::Touch& touch) { events.push_back(accuracy::as_impact(motion::event_of(touch))); }
 };
@@ -44,7 +55,7 @@ template <template <Effects> class Method>
 accuracy::RunRecord record_by(const point::Problem& scene, double duration) {
   EventList list;
   accuracy::RunRecord record = run_by<Method>(scene, duration, list);
-  record.events = std::move(list.events);
+  record.events = has_loose_mass(scene.loose) ? accuracy::with_slow_impacts_summed(list.events) : list.events;
   return record;
 }
 
