@@ -85,15 +85,14 @@ certificates::Tally CertifiedFile::certify(const std::vector<std::size_t>& point
   for (std::size_t chain = 0; chain < chains.count; ++chain) {
     std::size_t length = chains.length;  // up to the last point that is chosen
     while (length > 0 && !is_chosen[chains.point(chain, length - 1)]) --length;
-    std::optional<Start> end;
+    std::optional<point::End> end;
     Units units_of_end{};
     for (std::size_t i = 0; i < length; ++i) {
       const std::size_t index = chains.point(chain, i);
       point::Problem problem = problem_at(sweep_, index);
       if (sweep_.follow) sweep::start_from(problem, end, units_of_end);
       const certificates::CertifiedPoint found = certificates::certified(problem, scratch);
-      end = failed(found.status) ? std::nullopt : std::optional(found.end);
-      if (end) end->phase -= problem.shaking.lead;
+      end = failed(found.status) ? std::nullopt : std::optional(sweep::end_for_next(problem, found.end));
       units_of_end = problem.units;
       if (!is_chosen[index]) continue;
       if (!is_reproduced(index, found)) {

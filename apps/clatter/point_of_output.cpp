@@ -65,7 +65,7 @@ point::Problem started_problem(const sweep::Sweep& sweep, std::size_t point) {
   std::size_t chain = 0, position = 0;
   while (chains.point(chain, position) != point)
     if (++position == chains.length) position = 0, ++chain;
-  std::optional<Start> end;
+  std::optional<point::End> end;
   Units units_of_end{};
   point::ThreadScratch scratch;
   for (std::size_t i = 0;; ++i) {
@@ -73,8 +73,7 @@ point::Problem started_problem(const sweep::Sweep& sweep, std::size_t point) {
     if (sweep.follow) sweep::start_from(problem, end, units_of_end);
     if (i == position) return problem;
     const point::PointResult result = run_point(problem, scratch);
-    end = failed(result.status) ? std::nullopt : std::optional(result.end);
-    if (end) end->phase -= problem.shaking.lead;
+    end = failed(result.status) ? std::nullopt : std::optional(sweep::end_for_next(problem, result.end));
     units_of_end = problem.units;
   }
 }

@@ -132,7 +132,7 @@ CertifiedPoint certified(const BranchPoint& point, const StartProblem& start) {
   const Problem problem = problem_from(start, point.scene, state, 0.0);
   point::PointResult result{};
   result.status = steady::Status::periodic, result.observed_turns = point.orbit.period_ratio();
-  result.end = problem.start;
+  static_cast<Start&>(result.end) = problem.start;
   result.x_min = std::max(range.x_min, rigid.lower), result.x_max = std::min(range.x_max, rigid.upper);
   result.v_min = range.v_min, result.v_max = range.v_max;
   std::ranges::copy(point.multiplier_re, result.multiplier_re.begin());

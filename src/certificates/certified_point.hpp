@@ -26,7 +26,7 @@ enum class Without : std::uint8_t {
 struct CertifiedPoint {
   steady::Status status = steady::Status::unresolved;
   double periods = 0.0;  ///< of periodic motion, in those of the force
-  Start end{};           ///< from which the next point of a branch starts
+  point::End end{};      ///< from which the next point of a branch starts
   Without without = Without::status;
   std::optional<Certificate> certificate{};
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -63,7 +64,8 @@ void check_can_follow(const Settings& settings, const Setting& follow, const std
     if (std::get<AxisValues>(settings.axes[axis].value).sobol)
       fail(follow.location, "follow along " + in_quotes(name) +
                                 ", whose values sobol(...) leap to and fro; write linspace(a, b, n), or follow none");
-    if (name != "phase" && name != "x0" && name != "v0" && name != "start_period") continue;
+    constexpr std::array<std::string_view, 6> of_start{"phase", "x0", "v0", "start_period", "loose_x0", "loose_v0"};
+    if (std::ranges::find(of_start, name) == of_start.end()) continue;
     fail(follow.location, "follow along " + in_quotes(name) +
                               ", which only the first point would start from; follow another axis, or none");
   }

@@ -76,13 +76,11 @@ void check_force(const Settings& settings) {
     refuse(section->key_location, "a section without a force", "give " + key + ", or observe a trajectory");
 }
 
-/// Commands and keys that don't know a loose mass.
+/// Keys that don't know a loose mass.
 void check_uses(const Settings& settings) {
-  const auto refuse_key = [&](std::string_view section, std::string_view name, const std::string& way_out) {
-    refuse(settings.find(section, name)->key_location, in_quotes(name), way_out);
-  };
   if (!named_parameters(settings, "observe", "sensitivity").empty())
-    refuse_key("observe", "sensitivity", "leave it out, and vary a key in [sweep]");
+    refuse(settings.find("observe", "sensitivity")->key_location, "'sensitivity'",
+           "leave it out, and vary a key in [sweep]");
   if (const Setting* const along = settings.find("branch", "along"))
     refuse(along->key_location, "[branch]", "leave the section out, and vary the key in [sweep]");
 }

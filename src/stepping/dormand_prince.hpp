@@ -110,8 +110,10 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     FlightInHousing<motion::PolynomialInHousing<E.arc()>> flight{
         {standing(this->constants(), state), loose.origin, walls.load, constant(here_[2]), constant(here_[3])}};
     motion::Crossing<double>& contact = flight.contact = {0, Side::none, 0.0, flight.arc.start()};
-    if (contact.side = entered(walls.places, loose.origin, here_[2], here_[3]); contact.side != Side::none)
-      return flight;
+    contact.side = entered(walls.places, loose.origin, here_[2], here_[3]);
+    if (loose.w == 0 && towards == 0 && sign * this->constants().jerk(start) < 0)
+      contact.side = state.loose.wall;  // it lies on a wall that begins to press it
+    if (contact.side != Side::none) return flight;
     try {
       const Dense dense = dense_step(this->constants(), walls.load);
       flight.arc = {arc_of(this->constants(), state, dense, start.a), loose.origin, walls.load,

@@ -55,7 +55,7 @@ TEST(LooseMassAccuracy, rests_are_the_times_for_which_a_wall_presses) {
   }
   for (const auto error : {&WorkPrecision::contact_time, &WorkPrecision::contact_speed, &WorkPrecision::rest,
                            &WorkPrecision::extrema, &WorkPrecision::harmonics})
-    EXPECT_NEAR(order_of(found, error), 1.0, 0.2);
+    EXPECT_NEAR(order_of(found, error), 1.0, 0.3);  // events cut steps at chance
 }
 
 TEST(LooseMassAccuracy, double_agrees_with_fifty_digits_to_the_end_of_random_scenes) {

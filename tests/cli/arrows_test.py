@@ -55,6 +55,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/accuracy/run_record.cpp",
         "src/point/decided.cpp",
         "src/point/fifty_digit_motions.cpp",
+        "src/point/fixed_point_in_housing.cpp",
     },
     r"boost/numeric/odeint": {"src/point/dormand_prince_points.cpp"},
     r"boost/math": {
@@ -103,6 +104,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/point/exact_points_loose_mass.cpp",
         "src/point/exact_points_soft_stops.cpp",
         "src/point/fifty_digit_motions.cpp",
+        "src/point/fixed_point_in_housing.cpp",
         "src/point/moreau_points.cpp",
         "src/point/point.cpp",
         "src/sweep/worker_pool.cpp",

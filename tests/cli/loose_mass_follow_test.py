@@ -117,17 +117,17 @@ class Chains(Followed):
         self.assertTrue((points["z"][:4] == -1.9).all() and (points["w"][:4] == 0).all())
 
     def test_narrower_walls_take_the_loose_mass_along(self):
-        scene = {**PRESSED, "loose_x0": -2.0, "loose_v0": 0.0}
+        scene = {**PRESSED, "loose_x0": -1.5, "loose_v0": 0.0}
         gaps = [2.0, 1.9, 1.7, 1.5]
         sweep = {"loose_gap": gaps, "follow": "loose_gap"}
         fixed = {key: value for key, value in scene.items() if key != "loose_gap"}
         points = self.observed(fixed, SETTLED, sweep)
         for i, gap in enumerate(gaps):
             np.testing.assert_array_equal(points["z"][i], [-gap, -gap])
-            self.assertEqual(points["impact_total"][i], 0)
+            self.assertEqual(points["impact_total"][i] > 0, i == 0)
         wider = self.observed(fixed, SETTLED, {**sweep, "direction": "down"})  # it falls onto the wall further away
         np.testing.assert_array_equal(wider["z"][:, -1], np.negative(gaps))
-        self.assertGreater(wider["impact_total"][0], 0)
+        self.assertTrue((wider["impact_total"][:-1] > 0).all())
 
     def test_a_transient_goes_on_at_the_phase_at_which_it_was_cut(self):
         time = {"mode": "transient", "duration": 17.3}

@@ -64,7 +64,10 @@ class Refusals(CommandLine):
                     self.assert_told(f"{lines}{key} = {value}\n", (key,))
         for key in ("loose_x0", "loose_v0"):  # only the first point would start from it
             follow = f'{SCENE}[sweep]\n{key} = "linspace(0, 1, 5)"\nfollow = "{key}"\n'
-            self.assert_told(follow, ("follow", key))
+            self.write("a.toml", follow)
+            self.assert_refused(
+                2, f"'{key}', which only the first point would start from", "run", "a.toml", "-o", "a.h5"
+            )
         starts = f'{SCENE}[sweep]\nloose_x0 = "linspace(-2, 2, 5)"\n[observe]\nattractor = true\n'
         self.assert_told(starts, ("loose_x0", "between the walls"))
         walls = SCENE.replace("loose_gap = 1.9", "loose_lower = 1\nloose_upper = -1")

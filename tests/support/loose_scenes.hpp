@@ -39,11 +39,14 @@ struct NamedLooseScene {
                                       {"one wall", loose_scene(0.2, 0.1, 0.6, 1.3, 1, 0.6)},
                                       {"heavy damping", loose_scene(0.1, 1.4, 1.5, 0.8, 0.5, 0.5)},
                                       {"inelastic", loose_scene(0.1, 0.1, 0.5, 1.2, 0.4, 0)},
-                                      {"free and elastic", loose_scene(0.4, 0, 0, 1, 0.5, 1)}};
+                                      {"free and elastic", loose_scene(0.4, 0, 0, 1, 0.5, 1)},
+                                      {"at rest on a wall", loose_scene(0.3, 0.1, 0.5, 1.2, 0.4, 0.5)},
+                                      {"stands until it is met", loose_scene(0.1, 0.05, 0.6, 1.3, 0.3, 0.6)}};
   scenes[2].scene.loose.load = -0.3, scenes[2].scene.loose.lower = -0.1;
   scenes[3].scene.loose.load = 0.2;
   scenes[4].scene.loose.load = -0.4, scenes[4].scene.loose.upper = none;
   scenes[7].scene.start.velocity = 0.3, scenes[7].scene.loose.velocity = 0.2;
+  scenes[8].scene.loose.place = scenes[8].scene.loose.lower;  // which doesn't press at the start, but from then on
   return scenes;
 }
 
