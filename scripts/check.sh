@@ -7,9 +7,9 @@ source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$source_dir/scripts/packages.sh"
 
 line_length=120  # of Python; .flake8 has it again
-quick=(clang-format shellcheck black flake8 arrows g++ clang++)
+quick=(clang-format shellcheck black flake8 arrows g++)
 sanitize=(asan tsan)
-all=("${quick[@]}" clang-tidy "${sanitize[@]}")
+all=("${quick[@]}" clang++ clang-tidy "${sanitize[@]}")
 by_name=(packages report)
 
 # The tests that the sanitizers run, and the programs they need: those that read files or share memory, some minutes.
@@ -34,7 +34,8 @@ packages, runs each gate, names those that fail, and exits with 1 if any does:
                 (tests/cli/arrows_test.py)
   g++           everything compiles without a warning: the release build,
                 which scripts/test.sh has made already
-  clang++       no warning by clang++, without making code (build/clang)
+  clang++       no warning by clang++, without making code (build/clang); takes
+                ten minutes
   clang-tidy    no finding in any source file (.clang-tidy); takes longest
   asan          AddressSanitizer and UndefinedBehaviorSanitizer find nothing in
                 the tests of lanes, attractors, branches, files,
@@ -56,7 +57,7 @@ usage() {
   cat <<END
 usage: scripts/check.sh [--quick] [--sanitize] [--packages] [GATE...]
 
-  --quick      all but clang-tidy, asan, tsan; .ci/run calls it after the tests
+  --quick      all but clang++, clang-tidy, asan, tsan; .ci/run calls it after the tests
   --sanitize   ${sanitize[*]}
   --packages   packages, in some ten minutes
   GATE...      one by one; with no argument all of them but ${by_name[*]}

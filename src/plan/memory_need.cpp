@@ -30,12 +30,16 @@ struct Parts {
   double coordinates = 0.0;   ///< all of the file
   double results = 0.0;       ///< all but the log
   double intermediate = 0.0;  ///< results that aren't in the file, and what numbering the motions takes
+  double motions = 0.0;       ///< those of the ensembles, which are held twice while they are numbered
+  double shares = 0.0;        ///< results of the ensembles, which aren't there yet meanwhile
   double largest = 0.0;       ///< largest variable of the file
   double impacts = 0.0;       ///< number of impacts in the log
   double counts = 0.0;        ///< the numbers of impacts of each point
   double logged = 0.0;        ///< an impact in the file
 
   [[nodiscard]] double logged_in_file() const { return impacts * logged + counts; }
+  /// All results before the file is built, without the log.
+  [[nodiscard]] double collected() const { return results + intermediate + std::max(0.0, motions - shares); }
 };
 
 void add_coordinates(const sweep::Sweep& sweep, bool is_shard, Parts& parts) {
@@ -63,9 +67,10 @@ void add_numbering(const sweep::Sweep& sweep, Parts& parts) {
   constexpr double few = 4, of_share = 3 * value;
   const double ensembles = std::min(parts.points, static_cast<double>(sweep::ensembles_of(sweep)));
   const double motions = std::min(parts.points, few * ensembles);
-  parts.results +=
-      sizeof(std::int32_t) * parts.points + (value + std::min(few, parts.points / ensembles) * of_share) * ensembles;
-  parts.intermediate += attractors::bytes_of_motion * motions + sizeof(std::uint32_t) * ensembles;
+  parts.motions = attractors::bytes_of_motion * motions;
+  parts.shares = (value + std::min(few, parts.points / ensembles) * of_share) * ensembles;
+  parts.results += sizeof(std::int32_t) * parts.points + parts.shares;
+  parts.intermediate += parts.motions + sizeof(std::uint32_t) * ensembles;
 }
 
 Parts parts_of(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard, double impacts) {
@@ -167,7 +172,7 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::S
                held = parts.results + parts.intermediate + parts.chains;  // a byte tells a chain's state
   const double working = threads * value * observables::All::values_held(sweep.problem.observe);
   const double running = held + log + std::max(working, saving_bytes(sweep, parts, log));
-  const double collecting = parts.coordinates + held + log;
+  const double collecting = parts.coordinates + parts.collected() + parts.chains + log;
   const double building = parts.chains + building_bytes(parts);
   return {.output = parts.coordinates + parts.results + parts.logged_in_file(),
           .memory = before_bytes(parts, threads) + std::max({running, collecting, building}),
@@ -185,7 +190,7 @@ double merge_bytes(const sweep::Sweep& sweep, std::span<const ShardSize> shards)
   const double log = log_bytes(sweep, parts),
                reading = parts.results + parts.intermediate + held_log_bytes(sweep, parts) + largest;
   return before_bytes(parts, 0) +
-         std::max({reading, parts.coordinates + parts.results + parts.intermediate + log, building_bytes(parts)});
+         std::max({reading, parts.coordinates + parts.collected() + log, building_bytes(parts)});
 }
 
 double expected_impacts(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard) {

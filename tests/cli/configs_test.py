@@ -12,7 +12,7 @@ import h5py
 import numpy as np
 
 CLATTER = os.environ["CLATTER"]
-SI = ("m", "m s-1", "s", "s-1", "Hz", "J", "W", "N", "N s")  # of the results of a machine, and of its frequency
+SI = ("m", "m s-1", "s", "s-1", "Hz", "J", "W", "N", "N s", "kg")  # of the results of a machine, and of its frequency
 CONFIGS = Path(os.environ["CLATTER_SOURCE"]) / "configs"
 ALWAYS = ("status", "impact_total", "simulated_periods")
 OBSERVED = {  # variables of each [observe] key

@@ -10,8 +10,8 @@ from pathlib import Path
 import yaml
 
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
-QUICK = ("clang-format", "shellcheck", "black", "flake8", "arrows", "g++", "clang++")
-LONG = ("clang-tidy", "asan", "tsan")
+QUICK = ("clang-format", "shellcheck", "black", "flake8", "arrows", "g++")
+LONG = ("clang++", "clang-tidy", "asan", "tsan")
 BY_NAME = ("packages", "report")
 CPP = "int twice(int x) { return 2 * x; }\n"
 

@@ -132,7 +132,10 @@ class Chains(Followed):
     def test_a_transient_goes_on_at_the_phase_at_which_it_was_cut(self):
         time = {"mode": "transient", "duration": 17.3}
         masses = np.linspace(0.05, 0.2, 7)
-        advance = lambda _: 17.3 * SCENE["nu"]
+
+        def advance(_):
+            return 17.3 * SCENE["nu"]
+
         scene = {**SCENE, "phase": 0.4}
         sweep = {"loose_mass": list(map(float, masses)), "follow": "loose_mass"}
         fixed = {key: value for key, value in scene.items() if key != "loose_mass"}

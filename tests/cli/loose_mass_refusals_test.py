@@ -54,7 +54,7 @@ class Refusals(CommandLine):
         self.assert_told(SCENE.replace("0.3", "0"), ("loose_mass", "transient"))
 
     def test_wrong_values(self):
-        wrong = {"loose_mass": ("0", "-0.1", "nan", "inf"), "loose_gap": ("0", "-1", "inf")}
+        wrong = {"loose_mass": ("-0.1", "nan", "inf"), "loose_gap": ("0", "-1", "inf")}
         wrong |= {"loose_R": ("1.1", "-0.1"), "loose_x0": ("2", "-1.91", "nan"), "loose_load": ("inf",)}
         wrong |= {"loose_v0": ("nan",), "loose_lower": ("-1",), "loose_mas": ("1",)}
         for key, values in wrong.items():

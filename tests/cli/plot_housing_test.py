@@ -48,7 +48,7 @@ class Housing(Pictures):
         texts = " ".join(self.draw("housings").texts())
         for words in ("lower wall", "upper wall", "velocity at impact", "largest modulus", "smallest modulus"):
             self.assertIn(words, texts)
-        self.assertNotIn("stop", texts)
+        self.assertNotRegex(texts, "(lower|upper) stop")
         labels = [axes.get_ylabel() for axes in self.figure("housings").axes]
         self.assertIn("velocity at impact $z$′", labels)
         self.assertIn("displacement $y$ of the loose mass", labels)

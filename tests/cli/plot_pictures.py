@@ -68,11 +68,12 @@ CONFIGURATIONS |= {
     + STARTS.format('nu = "linspace(0.9, 1.5, 25)"\nlinked = "x0, v0"\n', "sobol", 32, "sobol", 32)
     + "[time]\nmax_periods = 300\n[observe]\nattractor = true\n",
 }
-HOUSED = "[scene]\nh = 0.02\nloose_mass = 0.05\nloose_R = 0.6\nnu = 1.3\n"
 CONFIGURATIONS |= {
-    "housing": HOUSED + "f = 0.3\nloose_lower = -1.5\nloose_upper = 2.1\n[time]\nmode = 'transient'\nduration = 30\n"
+    "housing": "[scene]\nh = 0.02\nf = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_R = 0.6\nloose_v0 = 0.6\n"
+    "loose_lower = -1.5\nloose_upper = 2.1\n[time]\nmode = 'transient'\nduration = 30\n"
     "[observe]\ntrajectory = 601\nimpact_log = true\n",
-    "housings": HOUSED + "loose_gap = 1.9\n[sweep]\nf = 'linspace(0.25, 0.4, 7)'\n[time]\nmax_periods = 300\n"
+    "housings": "[scene]\nh = 0.005\nnu = 1.0\nloose_mass = 0.02\nloose_R = 0.8\nloose_gap = 0.4\nloose_v0 = 1e-3\n"
+    "[sweep]\nf = 'linspace(0.008, 0.011, 7)'\n[time]\nmax_periods = 2000\n"
     "[observe]\nextrema = true\nimpacts = true\nstability = true\n",
 }
 NO_CHOICE = SimpleNamespace(only=(), along="", over="", at=(), size=None, xlim=None, ylim=None, log="", title=None)

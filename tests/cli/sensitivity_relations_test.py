@@ -15,7 +15,7 @@ from random_scenes import compliant_scenes, pressing_scenes, random_scenes, rubb
 from scene_runs import STEADY, Program, keys_of, machine_keys
 
 CLATTER = os.environ["CLATTER"]
-COUNT, _, SEED = os.environ.get("CLATTER_SENSITIVITY", "300").partition(":")
+COUNT, _, SEED = os.environ.get("CLATTER_SENSITIVITY", "150").partition(":")
 COUNT, SEED = int(COUNT), int(SEED or 461)
 
 STARTS = {"x0", "v0", "phase"}
