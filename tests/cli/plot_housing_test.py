@@ -49,7 +49,7 @@ class Housing(Pictures):
         for words in ("lower wall", "upper wall", "velocity at impact", "largest modulus", "smallest modulus"):
             self.assertIn(words, texts)
         self.assertNotRegex(texts, "(lower|upper) stop")
-        labels = [axes.get_ylabel() for axes in self.figure("housings").axes]
+        labels = [axes.get_ylabel().replace("\n", " ") for axes in self.figure("housings").axes]
         self.assertIn("velocity at impact $z$′", labels)
         self.assertIn("displacement $y$ of the loose mass", labels)
 
