@@ -11,8 +11,8 @@ struct DrawnName {
   std::string words, symbol;
 };
 
-/// Of a variable or a key, in a file of [scene] or of [machine]; a derivative d_RESULT_d_KEY has the symbols of both. With
-/// a loose mass impacts are those on its walls.
+/// Of a variable or a key, in a file of [scene] or of [machine]; a derivative d_RESULT_d_KEY has the symbols of both.
+/// With a loose mass impacts are those on its walls.
 [[nodiscard]] DrawnName drawn_name(std::string_view variable, bool is_si, bool has_loose_mass = false);
 
 /// The keys of [scene], or of [machine], with unit, words and symbol of each, as lines of TOML: the constants of a
