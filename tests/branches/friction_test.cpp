@@ -153,9 +153,9 @@ TEST(Sticking, strikes_a_stop_that_its_slip_just_reaches) {
     EXPECT_EQ(graze->branches[1], 1);
     const double at = graze->at.scene.oscillator.frequency;
     EXPECT_EQ(impacts_in_a_period(problem, at - 1e-3), impacts_in_a_period(problem, at + 1e-3) + more);
+    const double stop = problem.stops.upper, middle = numbers_of<double>(graze->at.scene).middle();
     const auto stick = std::ranges::find_if(graze->at.orbit.impacts, [&](const OrbitImpact& event) {
-      const double place = event.place + numbers_of<double>(graze->at.scene).middle();
-      return event.event == EventKind::stick && std::abs(std::abs(place) - problem.stops.upper) < 1e-12;
+      return event.event == EventKind::stick && std::abs(std::abs(event.place + middle) - stop) < 1e-12;
     });
     EXPECT_NE(stick, graze->at.orbit.impacts.end());
     for (std::size_t i = 1; i < found.points.size(); ++i) {
