@@ -183,14 +183,7 @@ class Bytes(Numbered):
     def test_every_way_to_run_a_sweep_gives_the_same_bytes(self):
         sweep = {**STARTS, "nu": "linspace(1.1, 1.2, 3)"}
         text = text_of(without(MANY, "nu"), TIME, sweep, observe={"attractor": True, "word": True})
-        whole = self.run_text(text, "whole.h5", "--threads", "1").read_bytes()
-        self.assertEqual(self.run_text(text, "two.h5", "--threads", "2").read_bytes(), whole)
-        shards = [f"{number}.h5" for number in range(3)]
-        for number, name in enumerate(shards):
-            self.run_text(text, name, "--shard", f"{number}/3")
-        self.assertEqual(self.clatter("merge", "-o", "merged.h5", *shards).returncode, 0)
-        self.assertEqual((self.directory / "merged.h5").read_bytes(), whole)
-        self.assert_resumed(whole)
+        self.assert_same_bytes(text)
 
 
 if __name__ == "__main__":

@@ -70,6 +70,17 @@ class Followed(CommandLine):
                 start["phase"] = changed.get("phase", 0.0) + advance(float(values[i]))
         return points
 
+    def assert_same_bytes(self, text):
+        """On one thread and on two, in shards that are merged, and stopped and resumed."""
+        whole = self.run_text(text, "whole.h5", "--threads", "1").read_bytes()
+        self.assertEqual(self.run_text(text, "two.h5", "--threads", "2").read_bytes(), whole)
+        shards = [f"{number}.h5" for number in range(3)]
+        for number, name in enumerate(shards):
+            self.run_text(text, name, "--shard", f"{number}/3")
+        self.assertEqual(self.clatter("merge", "-o", "merged.h5", *shards).returncode, 0)
+        self.assertEqual((self.directory / "merged.h5").read_bytes(), whole)
+        self.assert_resumed(whole)
+
     def assert_resumed(self, whole):
         """A run that is stopped time and again, and goes on from its journal, has these bytes in the end."""
         for attempt in range(200):
@@ -165,14 +176,7 @@ class Bytes(Followed):
         scene = {key: value for key, value in SCENE.items() if key not in ("nu", "loose_v0")}
         sweep = {"nu": "linspace(0.9, 1.7, 9)", "loose_v0": "linspace(-1, 1, 7)", "follow": "nu", "direction": "both"}
         text = text_of(scene, STEADY, sweep, observe={"word": True, "section": 2, "extrema": True})
-        whole = self.run_text(text, "whole.h5", "--threads", "1").read_bytes()
-        self.assertEqual(self.run_text(text, "two.h5", "--threads", "2").read_bytes(), whole)
-        shards = [f"{number}.h5" for number in range(3)]
-        for number, name in enumerate(shards):
-            self.run_text(text, name, "--shard", f"{number}/3")
-        self.assertEqual(self.clatter("merge", "-o", "merged.h5", *shards).returncode, 0)
-        self.assertEqual((self.directory / "merged.h5").read_bytes(), whole)
-        self.assert_resumed(whole)
+        self.assert_same_bytes(text)
 
 
 if __name__ == "__main__":
