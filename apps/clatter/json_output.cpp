@@ -162,15 +162,17 @@ std::string accuracy_json(const accuracy::PointAccuracy& of_point, const sweep::
 std::string special_json(const branches::SpecialPoint& special, const std::vector<Parameter>& parameters,
                          const Units& units) {
   const branches::BranchPoint& at = special.at;
-  const PhasePoint state = branches::state_at_phase_zero(at.scene, at.orbit);
+  const attractors::SectionState state = branches::state_at_phase_zero(at.scene, at.orbit);
   const double velocity = factor_of(units, Quantity::velocity);
   Json json{{"kind", name_of(special.kind)}};
   for (const Parameter parameter : parameters) json[std::string(parameter.key())] = value_of(at.scene, parameter);
   json["impact_speed"] = velocity * branches::impact_speed(at.orbit);
   json["x"] = state.x, json["v"] = velocity * state.v;
+  if (has_loose_mass(at.scene.loose)) json["z"] = state.z, json["w"] = velocity * state.w;
   json["period_ratio"] = at.orbit.period_ratio(), json["word"] = at.orbit.word(), json["stable"] = at.stable;
   json["multipliers"] = Json::array();
-  for (const std::size_t i : {0U, 1U}) json["multipliers"].push_back({at.multiplier_re[i], at.multiplier_im[i]});
+  for (std::size_t i = 0; i < branches::multipliers_in(at.scene); ++i)
+    json["multipliers"].push_back({at.multiplier_re[i], at.multiplier_im[i]});
   json["branches"] = special.branches, json["left_out"] = special.left_out;
   return text_of(json, in_one_line);
 }

@@ -44,7 +44,8 @@ results::Dataset described(std::string_view command, const config::Config& confi
   const sweep::Sweep& sweep = config.sweep;
   if (command == "run") return sweep::ResultStore(sweep).description();
   if (command == "branch")
-    return branches::branch_dataset({}, {.along = sweep.dimensions[0][0].parameter}, {.is_si = sweep.problem.is_si});
+    return branches::branch_dataset({}, {.along = sweep.dimensions[0][0].parameter}, {.is_si = sweep.problem.is_si},
+                                    has_loose_mass(sweep));
   std::vector<accuracy::PointAccuracy> points(size(sweep));
   return accuracy::accuracy_dataset(sweep, points);
 }

@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 
+#include "branches/equations/housing_links.hpp"
 #include "branches/halt_end.hpp"
 #include "branches/resting/resting_branch.hpp"
 #include "branches/start.hpp"
@@ -216,7 +217,8 @@ class Follower {
   /// A branch born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
   void wait_for_daughter(const BranchPoint& at, std::size_t special) {
     const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.repeated(2);
-    const Vector direction = direction_of_daughter(at.scene, at.orbit, daughter, speed_scale(at.scene, daughter));
+    const auto of = has_loose_mass(at.scene.loose) ? direction_of_daughter_in_housing : direction_of_daughter;
+    const Vector direction = of(at.scene, at.orbit, daughter, speed_scale(at.scene, daughter));
     waiting_.push_back({at.scene, daughter, direction, special, generation_ + 1});
   }
 
@@ -227,7 +229,7 @@ class Follower {
     const Side side = equations.shape().impacts[impact].side;
     const OrbitImpact &turn = touch.orbit.impacts[touch.impact], &begins = touch.orbit.impacts[impact];
     const bool at_once = turn.side == side && turn.phase - begins.phase < 1e-2;
-    if (!at_once || begins.event != EventKind::impact) return false;
+    if (has_loose_mass(problem_.loose) || !at_once || begins.event != EventKind::impact) return false;
     if (numbers_of<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
     const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, impact}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
@@ -322,6 +324,7 @@ class Follower {
     if (orbit.impacts[graze].event != EventKind::impact) waiting_.back().opens = graze;
   }
   void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special, int came = 0) {
+    if (orbit.size() == 0 && has_loose_mass(scene.loose)) return;  // it stays wherever it is
     if (orbit.size() == 0 && orbit.pressed == Side::none) {
       if (scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
       orbit = Orbit{};

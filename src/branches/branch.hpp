@@ -23,16 +23,17 @@ enum class SpecialKind : std::uint8_t {
   flip,
   symmetry_breaking,
   graze,
-  chatter_limit,     ///< a chatter ends in rest just at the release: beyond it the mass doesn't rest
-  release_tangency,  ///< beyond it the mass is never released, or earlier
-  impact_speed,      ///< largest along the branch
-  impact_power,      ///< likewise
-  harmonic,          ///< likewise
-  resonant_graze,    ///< of a curve: an impact that vanishes on curves of multipliers +1 and -1
-  cusp,              ///< of a curve: two special points meet and vanish
-  crossing_sliding,  ///< under dry friction: a reversal of a slip becomes a stick, or the other way round
-  grazing_sliding,   ///< likewise: a slip whose velocity just comes to 0 gains a stick, or the other way round
-  switching_sliding  ///< likewise: a reversal and the slip to a stick vanish, or appear before it
+  chatter_limit,      ///< a chatter ends in rest just at the release: beyond it the mass doesn't rest
+  release_tangency,   ///< beyond it the mass is never released, or earlier
+  impact_speed,       ///< largest along the branch
+  impact_power,       ///< likewise
+  harmonic,           ///< likewise
+  resonant_graze,     ///< of a curve: an impact that vanishes on curves of multipliers +1 and -1
+  cusp,               ///< of a curve: two special points meet and vanish
+  crossing_sliding,   ///< under dry friction: a reversal of a slip becomes a stick, or the other way round
+  grazing_sliding,    ///< likewise: a slip whose velocity just comes to 0 gains a stick, or the other way round
+  switching_sliding,  ///< likewise: a reversal and the slip to a stick vanish, or appear before it
+  neimark_sacker      ///< of a loose mass: a pair of multipliers leaves the unit circle
 };
 [[nodiscard]] std::string_view name_of(SpecialKind kind);
 /// What may be born there, if anything.
@@ -45,8 +46,8 @@ struct BranchPoint {
   FollowedScene scene;
   Orbit orbit;
   bool stable = false;
-  /// Of the whole period, the one of larger modulus first: real and imaginary parts.
-  std::array<double, 2> multiplier_re{}, multiplier_im{};
+  /// Of the whole period, `multipliers_in` its scene, the one of larger modulus first: real and imaginary parts.
+  std::array<double, 4> multiplier_re{}, multiplier_im{};
 };
 
 struct SpecialPoint {

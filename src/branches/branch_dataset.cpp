@@ -22,8 +22,13 @@ std::vector<std::int32_t> numbers_of(const std::vector<std::size_t>& branches, s
 /// Variables over one dimension, column by column.
 class Columns {
  public:
-  Columns(results::Dataset& dataset, const Units& units, std::string dimension, std::size_t length, std::string prefix)
-      : dataset_(dataset), units_(units), dimension_(std::move(dimension)), prefix_(std::move(prefix)) {
+  Columns(results::Dataset& dataset, const Units& units, bool in_housing, std::string dimension, std::size_t length,
+          std::string prefix)
+      : dataset_(dataset),
+        units_(units),
+        in_housing_(in_housing),
+        dimension_(std::move(dimension)),
+        prefix_(std::move(prefix)) {
     dataset_.dimensions.push_back({dimension_, length});
   }
 
@@ -41,8 +46,9 @@ class Columns {
     std::vector<std::uint8_t> stable;
     std::vector<std::string> word, regime;
     std::vector<double> low, high, v_low, v_high, speed, power;
+    std::vector<double> z, w, y_low, y_high, z_low, z_high;  // of a loose mass
     for (const BranchPoint& point : points) {
-      const PhasePoint state = state_at_phase_zero(point.scene, point.orbit);
+      const attractors::SectionState state = state_at_phase_zero(point.scene, point.orbit);
       const observables::Extrema::Values range = extrema(point.scene, point.orbit);
       const Stops rigid = rigid_ones(point.scene.stops);
       value.push_back(value_of(point.scene, settings.along));
@@ -52,8 +58,12 @@ class Columns {
       regime.push_back(point.orbit.regime());
       symmetric.push_back(is_symmetric(point.scene) ? point.orbit.mirrored : no_value);
       stable.push_back(point.stable);
-      re.insert(re.end(), point.multiplier_re.begin(), point.multiplier_re.end());
-      im.insert(im.end(), point.multiplier_im.begin(), point.multiplier_im.end());
+      const auto numbers = static_cast<std::ptrdiff_t>(multipliers_in(point.scene));
+      re.insert(re.end(), point.multiplier_re.begin(), point.multiplier_re.begin() + numbers);
+      im.insert(im.end(), point.multiplier_im.begin(), point.multiplier_im.begin() + numbers);
+      z.push_back(state.z), w.push_back(state.w);
+      y_low.push_back(range.y_min), y_high.push_back(range.y_max);
+      z_low.push_back(range.z_min), z_high.push_back(range.z_max);
       low.push_back(std::max(range.x_min, rigid.lower)), high.push_back(std::min(range.x_max, rigid.upper));
       v_low.push_back(range.v_min), v_high.push_back(range.v_max);
       speed.push_back(impact_speed(point.orbit)), power.push_back(impact_power(point.scene, point.orbit));
@@ -75,6 +85,14 @@ class Columns {
     add("x_max", Quantity::length, std::move(high), "maximum displacement");
     add("v_min", Quantity::velocity, std::move(v_low), "minimum velocity");
     add("v_max", Quantity::velocity, std::move(v_high), "maximum velocity");
+    if (in_housing_) {
+      add("z", Quantity::length, std::move(z), "place of the loose mass in the housing at forcing phase 0");
+      add("w", Quantity::velocity, std::move(w), "velocity of the loose mass over the housing at forcing phase 0");
+      add("y_min", Quantity::length, std::move(y_low), "minimum displacement of the loose mass");
+      add("y_max", Quantity::length, std::move(y_high), "maximum displacement of the loose mass");
+      add("z_min", Quantity::length, std::move(z_low), "minimum place of the loose mass in the housing");
+      add("z_max", Quantity::length, std::move(z_high), "maximum place of the loose mass in the housing");
+    }
     add("impact_speed", Quantity::velocity, std::move(speed), "speed of the fastest impact");
     add("impact_power", Quantity::power, std::move(power),
         units_.is_si ? "energy lost in impacts per second" : "energy lost in impacts per tau, per unit mass");
@@ -96,6 +114,7 @@ class Columns {
 
   results::Dataset& dataset_;
   const Units& units_;
+  bool in_housing_;
   std::string dimension_, prefix_;
 };
 
@@ -104,6 +123,7 @@ void name_observables(results::Dataset& dataset) {
   point::RunSettings settings;
   observables::Observe& observe = settings.observe;
   observe.extrema = observe.impacts = observe.word = observe.period = observe.stability = observe.energy = true;
+  observe.loose_extrema = true;
   for (const sweep::OutputVariable& output : sweep::outputs_of(settings))
     for (results::Variable& variable : dataset.variables)
       if (variable.name == output.name && !output.observable.empty())
@@ -119,7 +139,8 @@ std::string births_text(const OfBirths<std::size_t>& births) {
   return text;
 }
 
-results::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings, const Units& units) {
+results::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings, const Units& units,
+                                bool in_housing) {
   results::Dataset dataset;
   std::vector<std::int32_t> branch;
   std::vector<double> arclength;
@@ -127,8 +148,8 @@ results::Dataset branch_dataset(const Branches& branches, const BranchSettings& 
     branch.push_back(static_cast<std::int32_t>(point.branch));
     arclength.push_back(point.arclength);
   }
-  Columns points(dataset, units, "point", branches.points.size(), "");
-  dataset.dimensions.push_back({"multiplier", 2});
+  Columns points(dataset, units, in_housing, "point", branches.points.size(), "");
+  dataset.dimensions.push_back({"multiplier", in_housing ? 4U : 2U});
   points.add("branch", std::move(branch), settings.across ? "number of the curve" : "number of the branch");
   points.add("arclength", std::move(arclength), "along the branch or curve, over the width of its range");
   points.add_motions(branches.points, settings);
@@ -146,14 +167,14 @@ results::Dataset branch_dataset(const Branches& branches, const BranchSettings& 
     meeting.insert(meeting.end(), numbers.begin(), numbers.end());
     left_out.push_back(special.left_out);
   }
-  Columns specials(dataset, units, "special", at.size(), "special_");
+  Columns specials(dataset, units, in_housing, "special", at.size(), "special_");
   dataset.dimensions.push_back({"meeting", most});
   specials.add("kind", std::move(kind), "kind of the special point");
   specials.add("branch", std::move(meeting), "numbers of the branches, or the curves, that meet there; -1: no more",
                {"meeting"});
   if (settings.births) specials.add("left_out", std::move(left_out), "1: a birth there isn't followed");
   specials.add_motions(at, settings);
-  sweep::add_drawn_names(units.is_si, dataset);
+  sweep::add_drawn_names(units.is_si, dataset, in_housing);
   name_observables(dataset);
   return dataset;
 }

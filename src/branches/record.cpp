@@ -8,7 +8,7 @@
 namespace clatter::branches {
 namespace {
 
-constexpr std::array<std::string_view, 14> special_names{"fold",
+constexpr std::array<std::string_view, 15> special_names{"fold",
                                                          "flip",
                                                          "symmetry breaking",
                                                          "graze",
@@ -21,7 +21,8 @@ constexpr std::array<std::string_view, 14> special_names{"fold",
                                                          "cusp",
                                                          "crossing-sliding",
                                                          "grazing-sliding",
-                                                         "switching-sliding"};
+                                                         "switching-sliding",
+                                                         "Neimark-Sacker"};
 
 }  // namespace
 
@@ -58,13 +59,13 @@ BranchPoint Record::point(const OrbitEquations& equations, const CurvePoint& at)
 }
 
 std::size_t Record::number_of(SpecialKind kind, const BranchPoint& at) const {
-  const PhasePoint here = state_at_phase_zero(at.scene, at.orbit);
+  const attractors::SectionState here = state_at_phase_zero(at.scene, at.orbit);
   const auto known = std::ranges::find_if(found_.special, [&](const SpecialPoint& special) {
     if (special.kind != kind) return false;
     for (const auto& [parameter, unit] : axes_)
       if (std::abs(value_of(special.at.scene, parameter) - value_of(at.scene, parameter)) > 1e-8 * unit) return false;
-    const PhasePoint there = state_at_phase_zero(special.at.scene, special.at.orbit);
-    return std::hypot(here.x - there.x, here.v - there.v) <= 1e-5 * speed_unit_;
+    const attractors::SectionState off = difference(here, state_at_phase_zero(special.at.scene, special.at.orbit));
+    return std::hypot(std::hypot(off.x, off.v), std::hypot(off.z, off.w)) <= 1e-5 * speed_unit_;
   });
   return static_cast<std::size_t>(known - found_.special.begin());
 }

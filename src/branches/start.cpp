@@ -7,6 +7,7 @@
 #include "attractors/periodic_motion.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/resting/resting.hpp"
+#include "branches/start_in_housing.hpp"
 #include "point/exact_motion.hpp"
 #include "point/point.hpp"
 #include "scene/response.hpp"
@@ -17,11 +18,13 @@ namespace {
 
 double phase_of_start(const point::Problem& problem) { return problem.start.phase - problem.shaking.lead; }
 
-bool is_on_stop(const Stops& stops, double x) {
-  const auto is_on = [&](double stop) {
+/// Whether a mass begins on a stop, or a loose one on a wall.
+bool is_on_stop(const Scene& scene, const attractors::SectionState& state) {
+  const auto is_on = [&](double stop, double x) {
     return std::isfinite(stop) && std::abs(x - stop) <= attractors::same_motion * std::max(1.0, std::abs(stop));
   };
-  return is_on(stops.lower) || is_on(stops.upper);
+  return is_on(scene.stops.lower, state.x) || is_on(scene.stops.upper, state.x) || is_on(scene.loose.lower, state.z) ||
+         is_on(scene.loose.upper, state.z);
 }
 
 /// The middle of the first flight from the start on that lasts a thousandth of a forcing period or longer, in forcing
@@ -44,9 +47,10 @@ std::optional<double> middle_of_flight(const point::Problem& problem, std::int64
 /// The motion near a start, of so many forcing periods: at phase 0 between the stops it is taken there. Else in the
 /// middle of a flight, since an impact near the instant at which a motion is looked at may lie on both sides of it.
 MotionStart near_start(const point::Problem& problem, std::int64_t periods) {
-  const PhasePoint state{problem.start.displacement, problem.start.velocity};
+  const attractors::SectionState state{problem.start.displacement, problem.start.velocity, problem.loose.place,
+                                       problem.loose.velocity};
   const double phase = phase_of_start(problem);
-  if (phase == 0 && !is_on_stop(problem.stops, state.x)) return {state, 0.0, periods};
+  if (phase == 0 && !is_on_stop(problem, state)) return {state, 0.0, periods};
   const auto middle = middle_of_flight(problem, periods);
   if (!middle) return {state, phase, periods};
   const auto there = attractors::state_after(problem, *middle);
@@ -249,7 +253,8 @@ MotionStart settled(point::Problem problem) {
         "the scene settles on no periodic motion within time.max_periods; begin elsewhere in the range, raise "
         "time.max_periods, or set branch.period and, near a periodic motion, x0 and v0");
   const auto periods = static_cast<std::int64_t>(result.attractor_periods);
-  const PhasePoint there{result.attractor_x, result.attractor_v};  // at the phase of the start
+  attractors::SectionState there{result.attractor_x, result.attractor_v};  // at the phase of the start
+  if (has_loose_mass(problem.loose)) there.z = result.attractor_z, there.w = result.attractor_w;
   const double phase = phase_of_start(problem), turns = phase / (2 * std::numbers::pi);
   if (std::ceil(turns) == turns) return {there, 0.0, periods};
   const auto state = attractors::state_after(attractors::started(problem, there, phase), std::ceil(turns) - turns);
@@ -267,6 +272,7 @@ Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric
     throw StartError(std::string("a branch needs a force, whose periods it counts: set ") +
                      (is_si ? "machine.force" : "scene.f"));
   const MotionStart near = period == 0 ? settled(problem) : near_start(problem, period);
+  if (has_loose_mass(problem.loose)) return start_in_housing(problem, near, symmetric);
   if (has_friction(problem.friction)) return slipping_start(problem, near, symmetric);
   if (has_soft_stop(problem.stops)) return soft_start(given, problem, near, symmetric);
   // Newton's method on the map of the periods; unless a contact appears or vanishes on the way it gets there

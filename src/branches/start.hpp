@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "attractors/section_state.hpp"
 #include "branches/equations/orbit.hpp"
 #include "branches/followed_scene.hpp"
 #include "point/problem.hpp"
@@ -28,7 +29,7 @@ void require_start_in_range(const FollowedScene& scene, Parameter parameter, con
 
 /// A state of a periodic motion at a forcing phase, and the motion's period.
 struct MotionStart {
-  PhasePoint state;
+  attractors::SectionState state;
   double phase = 0.0;        ///< rad
   std::int64_t periods = 1;  ///< of the force
 };

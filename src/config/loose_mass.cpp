@@ -81,8 +81,8 @@ void check_uses(const Settings& settings) {
   if (!named_parameters(settings, "observe", "sensitivity").empty())
     refuse(settings.find("observe", "sensitivity")->key_location, "'sensitivity'",
            "leave it out, and vary a key in [sweep]");
-  if (const Setting* const along = settings.find("branch", "along"))
-    refuse(along->key_location, "[branch]", "leave the section out, and vary the key in [sweep]");
+  if (const Setting* const across = settings.find("branch", "across"); across != nullptr)
+    refuse(across->key_location, "'across'", "leave it and curve out, and follow branches at several values of it");
 }
 
 }  // namespace

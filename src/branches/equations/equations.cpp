@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "branches/equations/housing_links.hpp"
 #include "branches/equations/links.hpp"
 
 namespace clatter::branches {
@@ -18,7 +19,9 @@ OrbitEquations::OrbitEquations(const FollowedScene& scene, const Orbit& shape, s
       speed_unit_(speed_unit),
       conditions_(std::move(conditions)),
       stiffness_varies_(
-          std::ranges::any_of(axes_, [&](const Axis& axis) { return varies_stiffness(scene, axis.parameter); })) {}
+          std::ranges::any_of(axes_, [&](const Axis& axis) { return varies_stiffness(scene, axis.parameter); })),
+      is_in_housing_(has_loose_mass(scene.loose)),
+      per_event_(is_in_housing_ ? of_wall_impact : 2) {}
 
 std::optional<std::size_t> OrbitEquations::grazing() const {
   for (const Condition& condition : conditions_)
@@ -32,24 +35,32 @@ bool OrbitEquations::grazes_outside() const {
 
 Vector OrbitEquations::unknowns_of(const FollowedScene& scene, const Orbit& orbit) const {
   Vector z(unknowns());
-  for (std::size_t i = 0; i < orbit.size(); ++i)
-    z[2 * i] = orbit.impacts[i].phase, z[2 * i + 1] = orbit.impacts[i].coordinate() / speed_unit_;
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const OrbitImpact& impact = orbit.impacts[i];
+    const std::size_t phase = phase_of(i);
+    z[phase] = impact.phase, z[phase + 1] = impact.coordinate() / speed_unit_;
+    if (is_in_housing_) z[phase + 2] = impact.place / speed_unit_, z[phase + 3] = impact.main / speed_unit_;
+  }
   for (std::size_t k = 0; k < axes_.size(); ++k)
-    z[2 * orbit.size() + k] = value_of(scene, axes_[k].parameter) / axes_[k].unit;
+    z[first_axis() + k] = value_of(scene, axes_[k].parameter) / axes_[k].unit;
   return z;
 }
 
 Orbit OrbitEquations::orbit_at(const Vector& z) const {
   Orbit orbit = shape_;
-  for (std::size_t i = 0; i < orbit.size(); ++i)
-    orbit.impacts[i].phase = z[2 * i], orbit.impacts[i].coordinate() = z[2 * i + 1] * speed_unit_;
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    OrbitImpact& impact = orbit.impacts[i];
+    const std::size_t phase = phase_of(i);
+    impact.phase = z[phase], impact.coordinate() = z[phase + 1] * speed_unit_;
+    if (is_in_housing_) impact.place = z[phase + 2] * speed_unit_, impact.main = z[phase + 3] * speed_unit_;
+  }
   return orbit;
 }
 
 FollowedScene OrbitEquations::scene_at(const Vector& z) const {
   FollowedScene scene = scene_;
   for (std::size_t k = 0; k < axes_.size(); ++k)
-    scene = changed(scene, axes_[k].parameter, z[2 * shape_.size() + k] * axes_[k].unit);
+    scene = changed(scene, axes_[k].parameter, z[first_axis() + k] * axes_[k].unit);
   return scene;
 }
 
@@ -57,6 +68,7 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
   const FollowedScene scene = scene_at(z);
   const Orbit orbit = orbit_at(z);
   if (!(scene.oscillator.frequency > 0) || !(scene.stops.lower < scene.stops.upper)) return std::nullopt;
+  if (is_in_housing_ && !(scene.loose.ratio > 0 && scene.loose.lower < scene.loose.upper)) return std::nullopt;
   for (const double number : z)
     if (!std::isfinite(number)) return std::nullopt;
   const SceneNumbers<double> p = numbers_of<double>(scene);
@@ -88,8 +100,11 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
     }
     return true;
   };
-  if (!with_arcs(scene, add_flights, stiffness_varies_)) return std::nullopt;
-  std::size_t row = 2 * orbit.size();
+  if (is_in_housing_)
+    add_flights_in_housing(scene, orbit, out);
+  else if (!with_arcs(scene, add_flights, stiffness_varies_))
+    return std::nullopt;
+  std::size_t row = first_axis();
   for (const Condition& condition : conditions_) {
     if (condition.kind == Condition::Kind::graze)
       add_graze(orbit, condition.impact, row, out);
@@ -101,6 +116,8 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       add_release(scene, orbit.impacts[condition.impact], 2 * condition.impact, row, out);
     else if (condition.is_of_halt())
       add_halt(scene, orbit.impacts[condition.impact], condition, row, out);
+    else if (is_in_housing_)
+      add_multiplier_in_housing(scene, orbit, condition, row, out);
     else
       add_multiplier(scene, orbit, condition, row, out);
     ++row;
@@ -110,7 +127,7 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
 
 void OrbitEquations::add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const {
   out.residual[row] = orbit.impacts[impact].before;
-  out.slope(row, 2 * impact + 1) = speed_unit_;
+  out.slope(row, phase_of(impact) + 1) = speed_unit_;
 }
 
 void OrbitEquations::add_force(const FollowedScene& scene, const OrbitImpact& event, std::size_t unknown,
@@ -126,15 +143,15 @@ void OrbitEquations::add_force(const FollowedScene& scene, const OrbitImpact& ev
   out.slope(row, unknown) = rate.slope[by_begin];
   out.slope(row, unknown + 1) = rate.slope[by_before] * speed_unit_;
   for (std::size_t k = 0; k < axes_.size(); ++k)
-    out.slope(row, 2 * shape_.size() + k) = rate.slope[by_first_axis + k] * axes_[k].unit;
+    out.slope(row, first_axis() + k) = rate.slope[by_first_axis + k] * axes_[k].unit;
 }
 
 void OrbitEquations::add_duration(const Orbit& orbit, const Condition& condition, std::size_t row,
                                   Linearised& out) const {
   const std::size_t i = condition.impact, next = (i + 1) % orbit.size();
   out.residual[row] = orbit.impact(i + 1).phase - orbit.impact(i).phase - condition.duration;
-  out.slope(row, 2 * i) -= 1;
-  out.slope(row, 2 * next) += 1;
+  out.slope(row, phase_of(i)) -= 1;
+  out.slope(row, phase_of(next)) += 1;
 }
 
 void OrbitEquations::add_halt(const FollowedScene& scene, const OrbitImpact& halt, const Condition& condition,
@@ -155,7 +172,7 @@ void OrbitEquations::add_halt(const FollowedScene& scene, const OrbitImpact& hal
   out.slope(row, unknown) = zero.slope[by_begin];
   out.slope(row, unknown + 1) = zero.slope[by_before] * speed_unit_;
   for (std::size_t k = 0; k < axes_.size(); ++k)
-    out.slope(row, 2 * shape_.size() + k) = zero.slope[by_first_axis + k] * axes_[k].unit;
+    out.slope(row, first_axis() + k) = zero.slope[by_first_axis + k] * axes_[k].unit;
 }
 
 void OrbitEquations::add_release(const FollowedScene& scene, const OrbitImpact& impact, std::size_t phase,
@@ -167,7 +184,7 @@ void OrbitEquations::add_release(const FollowedScene& scene, const OrbitImpact& 
   out.residual[row] = force.value;
   out.slope(row, phase) = force.slope[by_begin];
   for (std::size_t k = 0; k < axes_.size(); ++k)
-    out.slope(row, 2 * shape_.size() + k) = force.slope[by_first_axis + k] * axes_[k].unit;
+    out.slope(row, first_axis() + k) = force.slope[by_first_axis + k] * axes_[k].unit;
 }
 
 void OrbitEquations::add_multiplier(const FollowedScene& scene, const Orbit& all, const Condition& condition,

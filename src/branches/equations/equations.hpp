@@ -39,8 +39,9 @@ struct Condition {
 
 /// The equations of periodic motion with given impacts (multiple shooting over arcs): every flight ends on the stop of
 /// the next impact, with its velocity, or halts in its place. Unknowns are phase and velocity of each impact, or phase
-/// and place of each halt, then one or two parameters, in units of the speed and the widths that the constructor is
-/// given. They hold for motion through stops, too: whether no flight is cut short is another question (`violation`).
+/// and place of each halt, or at a wall of a housing phase, z', and place and velocity of the main mass; then one or
+/// two parameters, in units of the speed and the widths that the constructor is given. They hold for motion through
+/// stops, too: whether no flight is cut short is another question (`violation`).
 class OrbitEquations {
  public:
   /// One parameter, or two, in the user's units; its unit here is the width of its range.
@@ -52,8 +53,12 @@ class OrbitEquations {
   OrbitEquations(const FollowedScene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
                  std::vector<Condition> conditions = {});
 
-  [[nodiscard]] std::size_t equations() const { return 2 * shape_.size() + conditions_.size(); }
-  [[nodiscard]] std::size_t unknowns() const { return 2 * shape_.size() + axes_.size(); }
+  [[nodiscard]] std::size_t equations() const { return first_axis() + conditions_.size(); }
+  [[nodiscard]] std::size_t unknowns() const { return first_axis() + axes_.size(); }
+  /// The number of the unknown that is an event's phase; after it come those beside it.
+  [[nodiscard]] std::size_t phase_of(std::size_t event) const { return per_event_ * event; }
+  /// The number of the unknown that is the first parameter.
+  [[nodiscard]] std::size_t first_axis() const { return per_event_ * shape_.size(); }
 
   /// Residuals and their derivatives by the unknowns, [equation][unknown].
   struct Linearised {
@@ -79,6 +84,10 @@ class OrbitEquations {
   [[nodiscard]] bool grazes_outside() const;
 
  private:
+  /// The flights of a loose mass in its housing, and the equation of one of its multipliers.
+  void add_flights_in_housing(const FollowedScene& scene, const Orbit& orbit, Linearised& out) const;
+  void add_multiplier_in_housing(const FollowedScene& scene, const Orbit& orbit, const Condition& condition,
+                                 std::size_t row, Linearised& out) const;
   void add_release(const FollowedScene& scene, const OrbitImpact& impact, std::size_t phase, std::size_t row,
                    Linearised& out) const;
   void add_halt(const FollowedScene& scene, const OrbitImpact& halt, const Condition& condition, std::size_t row,
@@ -95,7 +104,8 @@ class OrbitEquations {
   std::vector<Axis> axes_;
   double speed_unit_;
   std::vector<Condition> conditions_;
-  bool stiffness_varies_;
+  bool stiffness_varies_, is_in_housing_;
+  std::size_t per_event_;  ///< unknowns
 };
 
 /// The derivative of the map of one impact to the same impact a period, or half a period, later (impact phase and

@@ -12,7 +12,8 @@ using observables::ImpactWord;
 Side mirror_image(Side side) { return static_cast<Side>(-sign_of(side)); }
 
 OrbitImpact mirrored(OrbitImpact impact) {
-  return {mirror_image(impact.side), impact.phase, -impact.before, impact.rest, impact.event, -impact.place};
+  return {
+      mirror_image(impact.side), impact.phase, -impact.before, impact.rest, impact.event, -impact.place, -impact.main};
 }
 
 OrbitImpact later(OrbitImpact impact, double advance) {
@@ -88,12 +89,13 @@ Orbit Orbit::repeated(int times) const {
 }
 
 Orbit Orbit::half_if_same(double tolerance, bool symmetric_scene) const {
-  double farthest = 0;
-  for (const OrbitImpact& impact : impacts) farthest = std::max(farthest, std::abs(impact.place));
+  double farthest = 0, fastest = 0;
+  for (const OrbitImpact& impact : impacts)
+    farthest = std::max(farthest, std::abs(impact.place)), fastest = std::max(fastest, std::abs(impact.main));
   const auto same = [&](const OrbitImpact& a, const OrbitImpact& b) {
     return a.side == b.side && a.event == b.event && std::abs(a.phase - b.phase) <= tolerance &&
            std::abs(a.before - b.before) <= tolerance * std::max(std::abs(a.before), std::abs(b.before)) &&
-           std::abs(a.place - b.place) <= tolerance * farthest;
+           std::abs(a.place - b.place) <= tolerance * farthest && std::abs(a.main - b.main) <= tolerance * fastest;
   };
   if (pressed != Side::none) return {{}, 2, false, pressed};
   if (size() == 0) return symmetric_scene ? Orbit{{}, 1, true} : Orbit{{}, 2, false};

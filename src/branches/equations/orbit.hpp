@@ -31,7 +31,9 @@ struct OrbitImpact {
   double before = 0.0;     ///< velocity before the impact; at a soft stop it goes on
   double rest = 0.0;       ///< forcing phase, rad, for which the mass rests from then on
   EventKind event = EventKind::impact;
-  double place = 0.0;  ///< of a halt: displacement from `SceneNumbers::middle`
+  double place = 0.0;  ///< of a halt, or of the main mass at an impact on a wall: displacement from
+                       ///< `SceneNumbers::middle`
+  double main = 0.0;   ///< at an impact on a wall: velocity of the main mass before it; `before` is that in the housing
 
   /// The unknown beside the phase: the velocity before the event, or the place of a halt.
   [[nodiscard]] double coordinate() const { return halts(event) ? place : before; }

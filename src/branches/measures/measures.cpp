@@ -5,11 +5,15 @@
 #include <complex>
 #include <numbers>
 
+#include "branches/equations/housing_flight.hpp"
+#include "branches/equations/housing_links.hpp"
 #include "branches/measures/moving.hpp"
 #include "observables/extrema_observer.hpp"
 
 namespace clatter::branches {
 namespace {
+
+using attractors::SectionState;
 
 /// Calls `function(arc, length)` for each flight of an orbit in turn.
 template <class Function>
@@ -32,6 +36,19 @@ void each_flight(const FollowedScene& scene, const Orbit& orbit, Function&& func
   });
 }
 
+/// The same in a housing, whose motion without impacts is that of no branch.
+template <class Function>
+void each_flight_in_housing(const FollowedScene& scene, const Orbit& orbit, Function&& function) {
+  with_arcs(scene, [&]<Effects E>() {
+    const HousingFlights<double, E> flights{numbers_of<double>(scene)};
+    for (std::size_t i = 0; i < orbit.size(); ++i) {
+      const OrbitImpact from = orbit.impact(i);
+      function(flights.after(wall_impact(from)), from.phase,
+               (orbit.impact(i + 1).phase - from.phase) / flights.constants().nu);
+    }
+  });
+}
+
 /// The forcing phase, rad, for which a stick lasts; 0 of any other event.
 double hold(const FollowedScene& scene, const OrbitImpact& event) {
   if (event.event != EventKind::stick) return 0.0;
@@ -41,10 +58,29 @@ double hold(const FollowedScene& scene, const OrbitImpact& event) {
   });
 }
 
+Multipliers multipliers_in_housing(const FollowedScene& scene, const Orbit& orbit) {
+  Multipliers found;
+  std::size_t i = 0;
+  for (std::complex<double> multiplier : housing_map(scene, orbit).multipliers()) {
+    found.stable = found.stable && std::abs(multiplier) < 1;
+    if (orbit.mirrored) multiplier *= multiplier;
+    found.re[i] = multiplier.real(), found.im[i] = multiplier.imag(), ++i;
+  }
+  return found;
+}
+
+/// The state at the end of a flight in a housing, a time after its beginning.
+template <Effects E>
+SectionState state_on(const motion::RelativeArc<double, E>& arc, double time) {
+  const motion::Motion<double> m = arc.at(time), main = arc.main_at(m);
+  return {main.x, main.v, m.x, m.v};
+}
+
 }  // namespace
 
 Multipliers multipliers(const FollowedScene& scene, const Orbit& orbit) {
-  if (orbit.rests()) return {{0, 0}, {0, 0}, true};
+  if (orbit.rests()) return {};
+  if (has_loose_mass(scene.loose)) return multipliers_in_housing(scene, orbit);
   const ImpactMap map = impact_map(scene, orbit);
   const double half = map.trace() / 2;
   const std::complex<double> root = std::sqrt(std::complex<double>(half * half - map.determinant));
@@ -55,8 +91,8 @@ Multipliers multipliers(const FollowedScene& scene, const Orbit& orbit) {
   return {{first.real(), second.real()}, {first.imag(), second.imag()}, stable};
 }
 
-PhasePoint state_at(const FollowedScene& scene, const Orbit& orbit, std::size_t i, double phase) {
-  PhasePoint state{};
+SectionState state_at(const FollowedScene& scene, const Orbit& orbit, std::size_t i, double phase) {
+  SectionState state;
   std::size_t flight = 0;
   each_flight(scene, orbit, [&](const auto& arc, double begin, double) {
     if (flight++ != i) return;
@@ -66,10 +102,17 @@ PhasePoint state_at(const FollowedScene& scene, const Orbit& orbit, std::size_t 
   return state;
 }
 
-PhasePoint state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit) {
-  std::optional<PhasePoint> state;
+SectionState state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit) {
+  std::optional<SectionState> state;
   constexpr double turn = 2 * std::numbers::pi;
   const Orbit whole = orbit.whole();
+  if (has_loose_mass(scene.loose)) {
+    each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
+      const double nu = arc.constants().nu, next = std::ceil(begin / turn) * turn;
+      if (!state && next <= begin + nu * length) state = state_on(arc, (next - begin) / nu);
+    });
+    return state.value_or(SectionState{});
+  }
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) {
     const double nu = arc.constants().nu, next = std::ceil(begin / turn) * turn;
     if (state || (next > begin + nu * length && whole.size() > 0)) return;
@@ -78,7 +121,7 @@ PhasePoint state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit) {
   });
   if (state) return *state;
   const SceneNumbers<double> p = numbers_of<double>(scene);
-  const auto standing = [&](const OrbitImpact& impact) -> PhasePoint {
+  const auto standing = [&](const OrbitImpact& impact) -> SectionState {
     return {halts(impact.event) ? p.middle() + impact.place : p.position(impact.side), 0.0};
   };
   for (const OrbitImpact& impact : whole.impacts)  // it rests then, or sticks, or is about to
@@ -92,6 +135,16 @@ PhasePoint state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit) {
 observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& orbit) {
   observables::Extrema::Observer extrema;
   const Orbit whole = orbit.whole();
+  if (has_loose_mass(scene.loose)) {
+    each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
+      extrema.arc(arc.main(), begin, length), extrema.in_housing(arc, begin, length);
+    });
+    for (const OrbitImpact& impact : whole.impacts) {
+      const double wall = impact.side == Side::upper ? scene.loose.upper : scene.loose.lower;
+      extrema.strike({0.0, impact.side, impact.before, 0.0, wall, impact.main, impact.main, 0.0});
+    }
+    return extrema.finish({.scene = scene}, 0.0, 0.0);
+  }
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) { extrema.arc(arc, begin, length); });
   const SceneNumbers<double> p = numbers_of<double>(scene);
   for (const OrbitImpact& impact : whole.impacts) {
@@ -115,7 +168,7 @@ double impact_power(const FollowedScene& scene, const Orbit& orbit) {
   double all = 0;
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (orbit.impacts[i].event == EventKind::impact)
-      all += lost(p.restitution(orbit.impacts[i].side), orbit.impacts[i].before, orbit.next_is_rest(i));
+      all += lost_in_impact(p, orbit.impacts[i].side, orbit.impacts[i].before, orbit.next_is_rest(i));
   if (orbit.meets_soft_stop()) all += loss_on_soft_stops(scene, orbit);
   return all * p.oscillator.frequency / orbit.advance() * p.mass;
 }

@@ -2,26 +2,30 @@
 
 #include <array>
 
+#include "attractors/section_state.hpp"
 #include "branches/equations/equations.hpp"
 #include "observables/extrema.hpp"
 
 namespace clatter::branches {
 
-/// Multipliers of an orbit over its whole period, and whether both lie within the unit circle. A rest forgets all that
-/// went before it: both are zero then.
+/// Multipliers of an orbit over its whole period, and whether all lie within the unit circle. A rest forgets all that
+/// went before it: they are zero then.
 struct Multipliers {
-  std::array<double, 2> re, im;  ///< the one of larger modulus first
-  bool stable;
+  std::array<double, 4> re{}, im{};  ///< the one of larger modulus first; without a loose mass two
+  bool stable = true;
 };
+/// How many multipliers there are: one for each number of a state.
+[[nodiscard]] inline std::size_t multipliers_in(const Scene& scene) { return has_loose_mass(scene.loose) ? 4 : 2; }
 [[nodiscard]] Multipliers multipliers(const FollowedScene& scene, const Orbit& orbit);
 
 /// The state at a phase after event i of an orbit and before the next, neither of which is a rest; at any phase of
 /// motion without events.
-[[nodiscard]] PhasePoint state_at(const FollowedScene& scene, const Orbit& orbit, std::size_t i, double phase);
+[[nodiscard]] attractors::SectionState state_at(const FollowedScene& scene, const Orbit& orbit, std::size_t i,
+                                                double phase);
 /// The state when the forcing phase is 0.
-[[nodiscard]] PhasePoint state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit);
+[[nodiscard]] attractors::SectionState state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit);
 
-/// Least and greatest displacement and velocity, which meet rigid stops to rounding.
+/// Least and greatest displacement and velocity, which meet rigid stops to rounding; of a loose mass those of y and z.
 [[nodiscard]] observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& orbit);
 
 /// Speed of the fastest impact.

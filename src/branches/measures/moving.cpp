@@ -6,6 +6,7 @@
 #include "branches/equations/links.hpp"
 #include "branches/measures/friction_harmonic.hpp"
 #include "branches/measures/soft_contacts.hpp"
+#include "motion/walls.hpp"
 
 namespace clatter::branches {
 namespace {
@@ -20,6 +21,13 @@ Moving motion_at(const FollowedScene& scene, const Orbit& orbit, const SceneNumb
           .soft = orbit.meets_soft_stop()};
 }
 
+/// The change of the velocity of the mass, or of the main mass, in an impact.
+Along jump_of_velocity(const SceneNumbers<Along>& p, Side side, const Along& before) {
+  if (p.loose.ratio == 0) return -(1 + p.restitution(side)) * before;
+  const motion::WallRule<Along> rule{p.loose.ratio, {p.loose.restitution}};
+  return rule.main_after(Along(0), before);
+}
+
 }  // namespace
 
 Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent) {
@@ -29,7 +37,7 @@ Moving moving(const OrbitEquations& equations, const Vector& point, const Vector
   const auto vary = [&](BasicGivenScene<Along>& given) {
     for (std::size_t k = 0; k < equations.axes().size(); ++k) {
       const auto& [parameter, unit] = equations.axes()[k];
-      const std::size_t unknown = 2 * orbit.size() + k;
+      const std::size_t unknown = equations.first_axis() + k;
       const double ahead = (point[unknown] + step * tangent[unknown]) * unit;
       Along value(point[unknown] * unit);
       value.slope[0] = (ahead - value.value) / step;
@@ -40,7 +48,8 @@ Moving moving(const OrbitEquations& equations, const Vector& point, const Vector
   m.stiffness_varies = equations.stiffness_varies();
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     Along phase(orbit.impacts[i].phase), coordinate(orbit.impacts[i].coordinate());
-    phase.slope[0] = tangent[2 * i], coordinate.slope[0] = tangent[2 * i + 1] * equations.speed_unit();
+    const std::size_t unknown = equations.phase_of(i);
+    phase.slope[0] = tangent[unknown], coordinate.slope[0] = tangent[unknown + 1] * equations.speed_unit();
     m.impacts.push_back({orbit.impacts[i].side, phase, coordinate, false, orbit.impacts[i].event});
   }
   return m;
@@ -109,7 +118,7 @@ Along impact_speed(const Moving& moving) {
 Along impact_power(const Moving& moving) {
   Along all = 0;
   for (const auto& [side, phase, before, rests, event] : moving.impacts)
-    if (event == EventKind::impact) all += lost(moving.p.restitution(side), before, rests);
+    if (event == EventKind::impact) all += lost_in_impact(moving.p, side, before, rests);
   if (moving.soft) all += soft_contacts(moving).loss;
   return all / moving.period * moving.p.mass;
 }
@@ -122,7 +131,7 @@ Along harmonic(const Moving& moving) {
   Along re = force.amplitude * sin(force.lead) / 2, im = -force.amplitude * cos(force.lead) / 2;
   for (const auto& [side, phase, before, rests, event] : moving.impacts) {
     if (event != EventKind::impact) continue;
-    const Along jump = -(1 + p.restitution(side)) * before / moving.period;
+    const Along jump = jump_of_velocity(p, side, before) / moving.period;
     re += jump * cos(phase), im -= jump * sin(phase);
   }
   if (moving.soft) {

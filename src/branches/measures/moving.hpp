@@ -42,10 +42,12 @@ struct Moving {
 [[nodiscard]] Along impact_power(const Moving& moving);
 [[nodiscard]] Along harmonic(const Moving& moving);
 
-/// Energy lost in an impact, per unit mass.
+/// Energy lost in an impact, per unit mass, or on a wall per unit of the main mass (eq. 70).
 template <class Number>
-[[nodiscard]] Number lost(const Number& R, const Number& before, bool rests) {
-  return rests ? Number(before * before / 2) : Number((1 - R) * (1 + R) * before * before / 2);
+[[nodiscard]] Number lost_in_impact(const SceneNumbers<Number>& p, Side side, const Number& before, bool rests) {
+  const Number R = p.loose.ratio == 0 ? p.restitution(side) : p.loose.restitution;
+  const Number lost = rests ? Number(before * before / 2) : Number((1 - R) * (1 + R) * before * before / 2);
+  return p.loose.ratio == 0 ? lost : Number(p.loose.ratio / (1 + p.loose.ratio) * lost);
 }
 /// The same on soft stops, in one repetition of a motion.
 [[nodiscard]] double loss_on_soft_stops(const FollowedScene& scene, const Orbit& orbit);

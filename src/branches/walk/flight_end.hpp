@@ -11,8 +11,8 @@ namespace clatter::branches {
 using Margin = motion::Margin<double>;
 
 /// The instant from `s` on at which a margin that has fallen below zero is least.
-template <Effects E>
-double turning_time(const motion::Arc<double, E>& arc, const Margin& margin, double s) {
+template <class A>
+double turning_time(const A& arc, const Margin& margin, double s) {
   for (int iteration = 0; iteration < 60; ++iteration) {
     const motion::Motion<double> m = arc.at(s);
     // on as long as it falls; a step no longer than a small part of a cycle

@@ -160,7 +160,8 @@ std::optional<Opened> opened(const Equations& equations, const FollowedScene& sc
     if (!lasting) continue;
     const OrbitEquations there = equations(lasting->orbit, {});
     Vector longer(there.unknowns(), 0.0);
-    longer[2 * lasting->first] = -1, longer[2 * ((lasting->first + 1) % lasting->orbit.size())] = 1;
+    longer[there.phase_of(lasting->first)] = -1;
+    longer[there.phase_of((lasting->first + 1) % lasting->orbit.size())] = 1;
     if (auto along = tangent(there, lasting->at, longer)) return Opened{lasting->orbit, lasting->at, *std::move(along)};
   }
   return std::nullopt;

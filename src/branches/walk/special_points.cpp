@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "branches/equations/housing_links.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/measures/moving.hpp"
 
@@ -26,10 +27,26 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
   const bool begins_to_halt = is_first && std::ranges::any_of(equations.shape().impacts, halts, &OrbitImpact::event);
   const double begin = begins_to_halt ? 1e-3 * step : 0.0;
   const bool has_impacts = equations.shape().size() > 0;
-  if (has_impacts) {
-    const SpecialKind kind = equations.shape().mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
+  const SpecialKind loses = equations.shape().mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
+  if (has_impacts && has_loose_mass(equations.scene_at(there->at).loose)) {
+    const auto map_at = [&](const CurvePoint& p) {
+      return housing_map(equations.scene_at(p.at), equations.orbit_at(p.at));
+    };
     look(
-        kind,
+        loses,
+        [&](const CurvePoint& p) {
+          return distance_to_in_housing(equations.scene_at(p.at), equations.orbit_at(p.at), -1);
+        },
+        false, begin);
+    look(
+        SpecialKind::neimark_sacker, [&](const CurvePoint& p) { return map_at(p).distance_to_unit_product(); }, false,
+        begin);
+    std::erase_if(found, [&](const FoundPoint& f) {  // two real multipliers with such a product are no bifurcation
+      return f.kind == SpecialKind::neimark_sacker && !map_at(f.point).would_be_complex();
+    });
+  } else if (has_impacts) {
+    look(
+        loses,
         [&](const CurvePoint& p) {
           return impact_map(equations.scene_at(p.at), equations.orbit_at(p.at)).distance_to(-1);
         },

@@ -14,7 +14,8 @@ struct FoundPoint {
   CurvePoint point;
 };
 
-/// The special points within a step of a walk, in the order of the branch: folds, flips or losses of symmetry, and
+/// The special points within a step of a walk, in the order of the branch: folds, flips or losses of symmetry, in
+/// a housing Neimark-Sacker bifurcations, and
 /// maxima of the measures that are observed. `is_first`: it is the first step from a special point.
 [[nodiscard]] std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, const Walk& walk,
                                                             double step, bool is_first,

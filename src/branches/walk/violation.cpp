@@ -5,6 +5,7 @@
 
 #include "branches/equations/flight.hpp"
 #include "branches/walk/flight_end.hpp"
+#include "branches/walk/housing_violation.hpp"
 #include "branches/walk/slip_violation.hpp"
 #include "motion/contact.hpp"
 
@@ -137,6 +138,7 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
 }  // namespace
 
 std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
+  if (has_loose_mass(scene.loose)) return housing_violation(scene, orbit, grazing);
   if (has_friction(scene.friction) || orbit.halts()) return slip_violation(scene, orbit, grazing);
   // next to its double zero in a graze, the sign of a soft stop's force is that of rounding
   constexpr double clear_of_rounding = 1e-6;

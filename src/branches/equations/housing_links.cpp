@@ -1,0 +1,236 @@
+#include "branches/equations/housing_links.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "branches/equations/flight.hpp"
+#include "branches/equations/housing_flight.hpp"
+#include "math/dual.hpp"
+#include "observables/multipliers.hpp"
+
+namespace clatter::branches {
+namespace {
+
+constexpr auto four = static_cast<Eigen::Index>(of_wall_impact);
+
+/// Derivatives by the impact that a flight begins with, by the phase at its end, and by two parameters.
+constexpr std::size_t by_end_phase = of_wall_impact, by_first_axis = by_end_phase + 1;
+using First = Dual<double, by_first_axis + 2>;
+using Along1 = Dual<First, 1>;  // of those, the change in one direction
+
+Eigen::Matrix4d matrix_of(const Square4& square) {
+  Eigen::Matrix4d matrix;
+  for (Eigen::Index i = 0; i < four; ++i)
+    for (Eigen::Index j = 0; j < four; ++j)
+      matrix(i, j) = square[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  return matrix;
+}
+Square4 square_of(const Eigen::Matrix4d& matrix) {
+  Square4 square;
+  for (Eigen::Index i = 0; i < four; ++i)
+    for (Eigen::Index j = 0; j < four; ++j)
+      square[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = matrix(i, j);
+  return square;
+}
+
+/// The numbers of a scene, with derivatives by the parameters that vary.
+template <class Number>
+SceneNumbers<Number> numbers_along(const FollowedScene& scene, const std::vector<OrbitEquations::Axis>& axes) {
+  return numbers_of<Number>(scene, [&](BasicGivenScene<Number>& given) {
+    for (std::size_t k = 0; k < axes.size(); ++k)
+      set(given, axes[k].parameter, Number(First(value_of(scene, axes[k].parameter), by_first_axis + k)));
+  });
+}
+
+bool stiffness_varies(const FollowedScene& scene, const std::vector<OrbitEquations::Axis>& axes) {
+  return std::ranges::any_of(axes, [&](const auto& axis) { return varies_stiffness(scene, axis.parameter); });
+}
+
+/// Whether the flight after impact i ends in the mirror image of the first one.
+bool is_mirrored(const Orbit& orbit, std::size_t i) { return orbit.mirrored && i + 1 == orbit.size(); }
+
+/// The map of small changes from impact to impact: the phase of the next one makes up for the change of the gap.
+Eigen::Matrix4d map_of(const HousingLink& link) {
+  const Eigen::Matrix4d begin = matrix_of(link.by_begin), end = matrix_of(link.by_end);
+  Eigen::Matrix4d map;
+  map.row(0) = -begin.row(0) / end(0, 0);
+  for (Eigen::Index row = 1; row < four; ++row)
+    map.row(row) = -(begin.row(row) + end(row, 0) * map.row(0)) / end(row, row);
+  return map;
+}
+
+/// The equations of small changes of all impacts, of which the last flight returns the first `multiplier` times as
+/// large.
+Eigen::MatrixXd changes_of(const std::vector<HousingLink>& links, int multiplier, double speed_unit) {
+  const auto count = static_cast<Eigen::Index>(links.size());
+  const Eigen::Vector4d unit(1.0, speed_unit, speed_unit, speed_unit);
+  Eigen::MatrixXd equations = Eigen::MatrixXd::Zero(four * count, four * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const HousingLink& link = links[static_cast<std::size_t>(i)];
+    const bool closes = i + 1 == count;
+    equations.block<four, four>(four * i, four * i) += matrix_of(link.by_begin) * unit.asDiagonal();
+    equations.block<four, four>(four * i, closes ? 0 : four * (i + 1)) +=
+        (closes ? multiplier : 1) * matrix_of(link.by_end) * unit.asDiagonal();
+  }
+  return equations;
+}
+
+/// The unit vector that these equations shorten most, and into which direction.
+struct LeastChange {
+  double size;
+  Eigen::VectorXd left, right;
+};
+LeastChange least_change(const std::vector<HousingLink>& links, int multiplier, double speed_unit) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(changes_of(links, multiplier, speed_unit),
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Index last = svd.singularValues().size() - 1;
+  return {svd.singularValues()[last], svd.matrixU().col(last), svd.matrixV().col(last)};
+}
+
+/// The flight of two impacts on numbers that carry derivatives, and the change of both in one direction.
+template <class Number>
+WallImpact<Number> begin_of(const OrbitImpact& impact) {
+  return {impact.side, Number(First(impact.phase, 0)), Number(First(impact.before, 1)), Number(First(impact.place, 2)),
+          Number(First(impact.main, 3))};
+}
+
+}  // namespace
+
+std::vector<HousingLink> housing_links(const FollowedScene& scene, const Orbit& orbit,
+                                       const std::vector<OrbitEquations::Axis>& axes) {
+  std::vector<HousingLink> links;
+  const auto add_links = [&]<Effects E>() {
+    const HousingFlights<First, E> flights(numbers_along<First>(scene, axes));
+    for (std::size_t i = 0; i < orbit.size(); ++i) {
+      const OrbitImpact next = orbit.impact(i + 1);
+      const std::array<double, of_wall_impact> there{0.0, next.before, next.place, next.main};
+      const auto end = flights.end(begin_of<First>(orbit.impact(i)), First(next.phase, by_end_phase), next.side);
+      HousingLink link;
+      for (std::size_t row = 0; row < of_wall_impact; ++row) {
+        const auto& slope = end[row].slope;
+        link.residual[row] = end[row].value - there[row];
+        std::copy_n(slope.begin(), of_wall_impact, link.by_begin[row].begin());
+        link.by_end[row][0] = slope[by_end_phase];
+        if (row > 0) link.by_end[row][row] = is_mirrored(orbit, i) ? 1.0 : -1.0;
+        for (std::size_t k = 0; k < axes.size(); ++k) link.by_axis[row][k] = slope[by_first_axis + k];
+      }
+      links.push_back(link);
+    }
+  };
+  with_arcs(scene, add_links, stiffness_varies(scene, axes));
+  return links;
+}
+
+HousingMultiplier housing_multiplier(const FollowedScene& scene, const Orbit& orbit,
+                                     const std::vector<OrbitEquations::Axis>& axes, int multiplier, double speed_unit) {
+  const LeastChange least = least_change(housing_links(scene, orbit, axes), multiplier, speed_unit);
+  HousingMultiplier found{least.size, std::vector<Square4::value_type>(orbit.size()), {}};
+  // the derivative of a singular value is left . dJ right, and J right the change of the flights in one direction
+  const auto add_flights = [&]<Effects E>() {
+    const HousingFlights<Along1, E> flights(numbers_along<Along1>(scene, axes));
+    for (std::size_t i = 0; i < orbit.size(); ++i) {
+      const bool closes = i + 1 == orbit.size();
+      const std::size_t next = closes ? 0 : i + 1;
+      const auto change = [&](std::size_t impact, std::size_t unknown) {
+        const double unit = unknown == 0 ? 1.0 : speed_unit;
+        return First(unit * least.right[static_cast<Eigen::Index>(of_wall_impact * impact + unknown)]);
+      };
+      WallImpact<Along1> from = begin_of<Along1>(orbit.impact(i));
+      from.phase.slope[0] = change(i, 0), from.w.slope[0] = change(i, 1);
+      from.place.slope[0] = change(i, 2), from.v.slope[0] = change(i, 3);
+      Along1 phase(First(orbit.impact(i + 1).phase, by_end_phase));
+      phase.slope[0] = change(next, 0) * First(closes ? multiplier : 1);
+      const auto end = flights.end(from, phase, orbit.impact(i + 1).side);
+      for (std::size_t row = 0; row < of_wall_impact; ++row) {
+        const double left = least.left[static_cast<Eigen::Index>(of_wall_impact * i + row)];
+        const auto& slope = end[row].slope[0].slope;
+        for (std::size_t j = 0; j < of_wall_impact; ++j) found.by_impact[i][j] += left * slope[j];
+        found.by_impact[next][0] += left * slope[by_end_phase];
+        for (std::size_t k = 0; k < axes.size(); ++k) found.by_axis[k] += left * slope[by_first_axis + k];
+      }
+    }
+  };
+  with_arcs(scene, add_flights, stiffness_varies(scene, axes));
+  return found;
+}
+
+HousingMap housing_map(const FollowedScene& scene, const Orbit& orbit) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  const double time = orbit.advance() / p.oscillator.frequency;
+  HousingMap found{.determinant = std::exp(-2 * p.oscillator.damping * time) *
+                                  std::pow(p.loose.restitution, 2 * static_cast<double>(orbit.size()))};
+  Eigen::Matrix4d map = Eigen::Matrix4d::Identity();
+  if (orbit.size() == 0)
+    with_arcs(scene, [&]<Effects E>() {
+      const HousingFlights<double, E> flights(p);
+      const auto& c = flights.constants();
+      const motion::Propagator<double> free = c.propagator(time);
+      map.topLeftCorner<2, 2>() << free.a, free.b, -c.spring(free.b), free.c;
+      map(2, 3) = time;
+      if (orbit.mirrored) map = -map;
+    });
+  for (const HousingLink& link : housing_links(scene, orbit, {}))
+    map = map_of(link) * map, found.denominator *= link.by_end[0][0];
+  found.map = square_of(map);
+  return found;
+}
+
+double distance_to_in_housing(const FollowedScene& scene, const Orbit& orbit, int multiplier) {
+  return changes_of(housing_links(scene, orbit, {}), multiplier, 1.0).determinant();
+}
+
+namespace {
+
+/// Coefficients of the characteristic polynomial s^4 - a s^3 + b s^2 - c s + D.
+struct Characteristic {
+  double a = 0, b = 0, c = 0;
+};
+Characteristic characteristic_of(const Eigen::Matrix4d& m) {
+  Characteristic of{.a = m.trace()};
+  for (Eigen::Index i = 0; i < four; ++i)
+    for (Eigen::Index j = i + 1; j < four; ++j) of.b += m(i, i) * m(j, j) - m(i, j) * m(j, i);
+  for (Eigen::Index without = 0; without < four; ++without) {
+    Eigen::Matrix3d minor;
+    for (Eigen::Index i = 0; i < 3; ++i)
+      for (Eigen::Index j = 0; j < 3; ++j) minor(i, j) = m(i + (i >= without), j + (j >= without));
+    of.c += minor.determinant();
+  }
+  return of;
+}
+
+}  // namespace
+
+// If two multipliers have the product 1, the polynomial is (s^2 + p s + 1)(s^2 + q s + D) with p = (c - a)/(1 - D) and
+// q = (a D - c)/(1 - D).
+double HousingMap::distance_to_unit_product() const {
+  if (!(determinant < 1 - 1e-9)) return 1.0;  // nothing contracts, so that all pairs have it
+  const auto [a, b, c] = characteristic_of(matrix_of(map));
+  const double D = determinant;
+  return denominator * denominator * ((b - 1 - D) * (1 - D) * (1 - D) - (c - a) * (a * D - c));
+}
+
+bool HousingMap::would_be_complex() const {
+  const auto [a, b, c] = characteristic_of(matrix_of(map));
+  return std::abs(c - a) < 2 * (1 - determinant);
+}
+
+std::array<std::complex<double>, 4> HousingMap::multipliers() const { return observables::multipliers_of(map); }
+
+Vector direction_of_daughter_in_housing(const FollowedScene& scene, const Orbit& orbit, const Orbit& daughter,
+                                        double speed_unit) {
+  const Eigen::Matrix4d back = matrix_of(housing_map(scene, orbit).map) + Eigen::Matrix4d::Identity();
+  Eigen::Vector4d change = Eigen::JacobiSVD<Eigen::Matrix4d>(back, Eigen::ComputeFullV).matrixV().col(3);
+  Vector direction;
+  for (const HousingLink& link : housing_links(scene, daughter, {})) {
+    direction.push_back(change[0]);
+    for (Eigen::Index i = 1; i < four; ++i) direction.push_back(change[i] / speed_unit);
+    change = map_of(link) * change;
+  }
+  direction.push_back(0.0);
+  const double length = std::sqrt(product(direction, direction));
+  for (double& x : direction) x /= length;
+  return direction;
+}
+
+}  // namespace clatter::branches

@@ -1,0 +1,48 @@
+#include "branches/start_in_housing.hpp"
+
+#include "attractors/periodic_motion.hpp"
+#include "branches/equations/flight.hpp"
+#include "branches/equations/housing_flight.hpp"
+
+namespace clatter::branches {
+namespace {
+
+/// Gives each impact place and velocity of the main mass before it, which moves alone from impact to impact.
+void add_main_mass(const point::Problem& problem, const attractors::SectionState& from, double phase, Orbit& orbit) {
+  with_arcs(problem, [&]<Effects E>() {
+    const HousingFlights<double, E> flights{SceneNumbers<double>{problem}};
+    const double nu = problem.oscillator.frequency, middle = flights.parameters().middle();
+    double place = from.x - middle, v = from.v;
+    for (OrbitImpact& impact : orbit.impacts) {
+      const motion::Motion<double> m = flights.main_from(phase, place, v).at((impact.phase - phase) / nu);
+      impact.place = m.x - middle, impact.main = m.v;
+      phase = impact.phase, place = impact.place, v = flights.rule().main_after(m.v, impact.before);
+    }
+  });
+}
+
+}  // namespace
+
+Orbit start_in_housing(const point::Problem& problem, const MotionStart& near, bool symmetric) {
+  const auto motion =
+      attractors::periodic_motion(problem, near.state, static_cast<std::size_t>(near.periods), near.phase);
+  if (!motion) throw StartError("the run from the start fails");
+  const attractors::SectionState& from = motion->cycle[0];
+  auto orbit = event_run(attractors::started(problem, from, near.phase), motion->cycle.size());
+  if (!orbit) throw StartError("the run from the start fails");
+  if (orbit->size() == 0)
+    throw StartError(
+        "the loose mass meets no wall from the start on: then it stays wherever it is, and no branch of such motion is "
+        "followed; set loose_x0 and loose_v0 so that it strikes, or shake harder");
+  for (OrbitImpact& impact : orbit->impacts) {
+    if (impact.before == 0)
+      throw StartError(
+          "a wall presses the loose mass in the motion at the start, and no branch of such motion is followed; begin "
+          "where it only strikes, or sweep the parameter with follow instead");
+    impact.phase += near.phase;
+  }
+  add_main_mass(problem, from, near.phase, *orbit);
+  return orbit->half_if_same(1e-6, symmetric);
+}
+
+}  // namespace clatter::branches
