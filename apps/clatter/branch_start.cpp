@@ -69,6 +69,9 @@ class FromPoint {
     for (const auto& [key, value] :
          {std::pair("x0", start.displacement), {"v0", start.velocity}, {"phase", start.phase}})
       changes.push_back({section() + key, config::number_text(value), option_});
+    if (const LooseMass& loose = point_.scene.loose; has_loose_mass(loose))
+      for (const auto& [key, value] : {std::pair("loose_x0", loose.place), {"loose_v0", loose.velocity}})
+        changes.push_back({section() + key, config::number_text(value), option_});
     changes.push_back({"branch.period", std::to_string(point_.periods), option_});
     return changes;
   }

@@ -110,6 +110,9 @@ PointOfOutput point_of_sweep(const std::string& path, const Places& where) {
     const branches::MotionStart motion = branches::settled(problem);
     out.scene.start = {motion.state.x * factor_of(problem.units, Quantity::length),
                        motion.state.v * factor_of(problem.units, Quantity::velocity), motion.phase};
+    if (has_loose_mass(problem.loose))
+      out.scene.loose.place = motion.state.z * factor_of(problem.units, Quantity::length),
+      out.scene.loose.velocity = motion.state.w * factor_of(problem.units, Quantity::velocity);
     out.periods = motion.periods;
   } catch (const branches::StartError& error) {
     throw UsageError(place + ": " + error.what());
@@ -126,6 +129,7 @@ class BranchPoints {
     varied_ = {config.branch->along};
     if (config.branch->across) varied_.push_back(*config.branch->across);
     std::vector<std::string> names{"branch", "x", "v", "period_ratio"};
+    if (has_loose_mass(scene_.loose)) names.insert(names.end(), {"z", "w"});
     for (const Parameter parameter : varied_) names.emplace_back(parameter.key());
     dataset_ = results::read_variables(path, names);
     const auto* const branch = results::values_of<std::int32_t>(dataset_, "branch");
@@ -215,6 +219,8 @@ class BranchPoints {
     PointOfOutput out{"point " + std::to_string(i) + ", " + place(i), scene_, varied_, 1};
     for (const Parameter parameter : varied_) set(out.scene, parameter, numbers(parameter.key())[i]);
     out.scene.start = {numbers("x")[i], numbers("v")[i], 0.0};
+    if (has_loose_mass(scene_.loose))
+      out.scene.loose.place = numbers("z")[i], out.scene.loose.velocity = numbers("w")[i];
     const double periods = numbers("period_ratio")[i];
     if (!(periods >= 1 && periods < 1e9)) refuse_damaged(path_);
     out.periods = static_cast<std::int64_t>(periods);
