@@ -106,6 +106,19 @@ class BranchCampaign:
         return False
 
     @staticmethod
+    def at_point(scene, found, point):
+        """The scene at a point of a branch, at forcing phase 0."""
+        of_loose = {"loose_x0": found["z"][point], "loose_v0": found["w"][point]} if scene.loose_mass else {}
+        state = {"x0": found["x"][point], "v0": found["v"][point], "phase": 0.0}
+        return scene.changed(nu=found["nu"][point], **state, **of_loose)
+
+    @staticmethod
+    def is_inside(scene):
+        """Whether a start is clear of rigid stops, and of walls."""
+        s = scene
+        return (s.stop_lower < s.x0 < s.stop_upper or is_beyond_soft(s)) and s.loose_lower < s.loose_x0 < s.loose_upper
+
+    @staticmethod
     def may_jump(found, point):
         """Whether a point is one at which dry friction begins to hold the mass, or no longer does."""
         changes = [b"sliding" in kind or kind == b"release tangency" for kind in found["special_kind"]]
@@ -118,11 +131,8 @@ class BranchCampaign:
                 continue
             of = np.flatnonzero((found["period_ratio"] == ratio) & np.isfinite(found["x"]))
             of = of[:: max(1, len(of) // 20)]
-            scenes = [
-                scene.changed(nu=found["nu"][k], x0=found["x"][k], v0=found["v"][k], phase=0.0).in_time(found["nu"][k])
-                for k in of
-            ]
-            inside = [k for k, s in enumerate(scenes) if s.stop_lower < s.x0 < s.stop_upper or is_beyond_soft(s)]
+            scenes = [self.at_point(scene, found, k).in_time(found["nu"][k]) for k in of]
+            inside = [k for k, s in enumerate(scenes) if self.is_inside(s)]
             if not inside:
                 continue
             inside = [k for k in inside if not self.may_jump(found, of[k])]
@@ -135,16 +145,19 @@ class BranchCampaign:
                 for k in inside
             ]
             runs, aside = (self.program.run(starts, time, OBSERVED) for starts in ([scenes[k] for k in inside], nudged))
+            names = ("x", "v", "z", "w") if scene.loose_mass else ("x", "v")
             for row, k in enumerate(inside):
                 s, point = scenes[k], of[k]
                 growth = 1 + np.abs(found["multiplier_re"][point]).max() + np.abs(found["multiplier_im"][point]).max()
-                stretched = max(abs(runs[name][row, -1] - aside[name][row, -1]) for name in ("x", "v")) / nudge
+                stretched = max(abs(runs[name][row, -1] - aside[name][row, -1]) for name in names) / nudge
                 growth = max(growth, stretched)
                 if not growth < 1e3:
                     continue
                 self.points += 1
-                off = max(abs(runs["x"][row, -1] - s.x0), abs(runs["v"][row, -1] - s.v0))
-                extrema = max(abs(runs["x_" + end][row] - found["x_" + end][point]) for end in ("min", "max"))
+                begin = dict(zip(("x", "v", "z", "w"), (s.x0, s.v0, s.loose_x0, s.loose_v0)))
+                off = max(abs(runs[name][row, -1] - begin[name]) for name in names)
+                ends = [name + end for name in ("xyz" if scene.loose_mass else "x") for end in ("_min", "_max")]
+                extrema = max(abs(runs[name][row] - found[name][point]) for name in ends)
                 allowed = 1e-7 * growth * (1 + abs(s.x0) + abs(s.v0))
                 if not (off <= allowed and extrema <= allowed):
                     self.fail(

@@ -33,6 +33,13 @@ class Scene:
     stop_phase: float = 0.0
     friction: float = 0.0
     friction_static: float = 0.0  # 0: as large as the friction
+    loose_mass: float = 0.0
+    loose_lower: float = -INF
+    loose_upper: float = INF
+    loose_R: float = 1.0
+    loose_load: float = 0.0
+    loose_x0: float = 0.0
+    loose_v0: float = 0.0
 
     def changed(self, **values):
         return Scene(**{**self.__dict__, **values})
@@ -43,7 +50,9 @@ class Scene:
 
         changes = {name: 0.0 - getattr(self, name) for name in ("f", "load", "x0", "v0")}
         changes |= {name: -getattr(self, name) for name in ("stop_amplitude", "base_amplitude")}
+        changes |= {name: 0.0 - getattr(self, name) for name in ("loose_load", "loose_x0", "loose_v0")}
         changes["stop_lower"], changes["stop_upper"] = -self.stop_upper, -self.stop_lower
+        changes["loose_lower"], changes["loose_upper"] = -self.loose_upper, -self.loose_lower
         for name in ("R", "stop_stiffness", "stop_damping"):
             changes[name + "_lower"], changes[name + "_upper"] = swapped(name)
         return self.changed(**changes)
@@ -51,6 +60,7 @@ class Scene:
     def scaled(self, size):
         names = ("f", "load", "x0", "v0", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude")
         names += ("friction", "friction_static")
+        names += ("loose_lower", "loose_upper", "loose_load", "loose_x0", "loose_v0")
         return self.changed(**{name: size * getattr(self, name) for name in names})
 
     def shifted(self, place):
@@ -59,9 +69,9 @@ class Scene:
 
     def in_time(self, faster):
         """The same motion in units of time that are shorter by so much."""
-        changes = {name: getattr(self, name) / faster for name in ("h", "nu", "v0")}
+        changes = {name: getattr(self, name) / faster for name in ("h", "nu", "v0", "loose_v0")}
         squares = ("f", "load", "stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
-        squares += ("friction", "friction_static")
+        squares += ("friction", "friction_static", "loose_load")
         return self.changed(**changes, **{name: getattr(self, name) / faster**2 for name in squares})
 
     def turned(self):
@@ -234,6 +244,27 @@ def slipping_scenes(count, seed):
         scene.friction = logarithmic(draw, 0.02, 0.6)
         if draw.random() < 0.2:
             scene.friction_static = scene.friction * draw.uniform(1, 1.5)
+        scenes.append(scene)
+    return scenes
+
+
+def carrying_scenes(count, seed):
+    """A loose mass, mostly light, between two walls, alike or not, or before one that a load drives it to."""
+    draw = random.Random(seed)
+    scenes = []
+    for _ in range(count):
+        scene = Scene(h=logarithmic(draw, 2e-3, 0.2), nu=logarithmic(draw, 0.3, 3), f=draw.choice([-1, 1]))
+        scene.stiffness = draw.choice([1.0, 1.0, logarithmic(draw, 0.3, 3)])
+        scene.load, scene.loose_mass = draw.choice([0.0, draw.uniform(-0.5, 0.5)]), logarithmic(draw, 5e-3, 0.5)
+        scene.phase, scene.loose_R = draw.choice([0.0, draw.uniform(-math.pi, math.pi)]), draw.uniform(0.3, 0.95)
+        detuning = math.hypot(scene.stiffness - scene.nu**2, 2 * scene.h * scene.nu)
+        gap = draw.uniform(0.5, 4) / max(0.05, detuning)
+        scene.loose_lower, scene.loose_upper = draw.choice([(-gap, gap), (-gap, gap), (0.0, gap), (-gap, 2 * gap)])
+        scene.loose_load = draw.choice([0.0, 0.0, draw.uniform(-0.2, 0.2)])
+        if draw.random() < 0.25:
+            scene.loose_lower, scene.loose_upper, scene.loose_load = 0.0, INF, -logarithmic(draw, 0.05, 0.5)
+        scene.loose_x0 = draw.uniform(scene.loose_lower, min(scene.loose_upper, scene.loose_lower + 2 * gap))
+        scene.x0, scene.v0, scene.loose_v0 = draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)
         scenes.append(scene)
     return scenes
 

@@ -23,6 +23,9 @@ def keys_of(scene):
             keys += ["stop" + side] + (["stop_stiffness" + side, "stop_damping" + side] if is_soft else ["R" + side])
     optional = "stop_amplitude base_amplitude stop_phase friction friction_static".split()
     keys += [key for key in optional if getattr(scene, key) != 0]
+    if scene.loose_mass:
+        keys += "loose_mass loose_R loose_load loose_x0 loose_v0".split()
+        keys += [key for key in ("loose_lower", "loose_upper") if math.isfinite(getattr(scene, key))]
     return {key: getattr(scene, key) for key in keys}
 
 
@@ -34,7 +37,7 @@ def machine_keys(mass):
         values["damping"] = 2 * mass * values.pop("h")
         for key, of_scene in (("force", "f"), ("stiffness", "stiffness"), ("load", "load")):
             values[key] = mass * values.pop(of_scene)
-        for key in ("stop_stiffness_lower", "stop_stiffness_upper", "friction", "friction_static"):
+        for key in ("stop_stiffness_lower", "stop_stiffness_upper", "friction", "friction_static", "loose_mass"):
             if key in values:
                 values[key] *= mass
         values["frequency"] = values.pop("nu") / (2 * math.pi)

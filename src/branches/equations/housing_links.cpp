@@ -62,16 +62,19 @@ Eigen::Matrix4d map_of(const HousingLink& link) {
 
 /// The equations of small changes of all impacts, of which the last flight returns the first `multiplier` times as
 /// large.
-Eigen::MatrixXd changes_of(const std::vector<HousingLink>& links, int multiplier, double speed_unit) {
+template <class Number>
+Eigen::MatrixX<Number> changes_of(const std::vector<HousingLink>& links, Number multiplier, double speed_unit) {
   const auto count = static_cast<Eigen::Index>(links.size());
   const Eigen::Vector4d unit(1.0, speed_unit, speed_unit, speed_unit);
-  Eigen::MatrixXd equations = Eigen::MatrixXd::Zero(four * count, four * count);
+  Eigen::MatrixX<Number> equations = Eigen::MatrixX<Number>::Zero(four * count, four * count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const HousingLink& link = links[static_cast<std::size_t>(i)];
     const bool closes = i + 1 == count;
-    equations.block<four, four>(four * i, four * i) += matrix_of(link.by_begin) * unit.asDiagonal();
-    equations.block<four, four>(four * i, closes ? 0 : four * (i + 1)) +=
-        (closes ? multiplier : 1) * matrix_of(link.by_end) * unit.asDiagonal();
+    const Eigen::Matrix4d begin = matrix_of(link.by_begin) * unit.asDiagonal(),
+                          end = matrix_of(link.by_end) * unit.asDiagonal();
+    equations.block(four * i, four * i, four, four) += begin.cast<Number>();
+    equations.block(four * i, closes ? 0 : four * (i + 1), four, four) +=
+        (closes ? multiplier : Number(1)) * end.cast<Number>();
   }
   return equations;
 }
@@ -82,7 +85,7 @@ struct LeastChange {
   Eigen::VectorXd left, right;
 };
 LeastChange least_change(const std::vector<HousingLink>& links, int multiplier, double speed_unit) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(changes_of(links, multiplier, speed_unit),
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(changes_of<double>(links, multiplier, speed_unit),
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Index last = svd.singularValues().size() - 1;
   return {svd.singularValues()[last], svd.matrixU().col(last), svd.matrixV().col(last)};
@@ -155,71 +158,66 @@ HousingMultiplier housing_multiplier(const FollowedScene& scene, const Orbit& or
   return found;
 }
 
-HousingMap housing_map(const FollowedScene& scene, const Orbit& orbit) {
-  const SceneNumbers<double> p = numbers_of<double>(scene);
-  const double time = orbit.advance() / p.oscillator.frequency;
-  HousingMap found{.determinant = std::exp(-2 * p.oscillator.damping * time) *
-                                  std::pow(p.loose.restitution, 2 * static_cast<double>(orbit.size()))};
+namespace {
+
+/// The map of small changes of the first impact over a period, or half a period; of motion without impacts that of its
+/// state.
+Eigen::Matrix4d map_of(const FollowedScene& scene, const Orbit& orbit) {
   Eigen::Matrix4d map = Eigen::Matrix4d::Identity();
   if (orbit.size() == 0)
     with_arcs(scene, [&]<Effects E>() {
-      const HousingFlights<double, E> flights(p);
+      const HousingFlights<double, E> flights(numbers_of<double>(scene));
       const auto& c = flights.constants();
+      const double time = orbit.advance() / c.nu;
       const motion::Propagator<double> free = c.propagator(time);
       map.topLeftCorner<2, 2>() << free.a, free.b, -c.spring(free.b), free.c;
       map(2, 3) = time;
       if (orbit.mirrored) map = -map;
     });
-  for (const HousingLink& link : housing_links(scene, orbit, {}))
-    map = map_of(link) * map, found.denominator *= link.by_end[0][0];
-  found.map = square_of(map);
-  return found;
-}
-
-double distance_to_in_housing(const FollowedScene& scene, const Orbit& orbit, int multiplier) {
-  return changes_of(housing_links(scene, orbit, {}), multiplier, 1.0).determinant();
-}
-
-namespace {
-
-/// Coefficients of the characteristic polynomial s^4 - a s^3 + b s^2 - c s + D.
-struct Characteristic {
-  double a = 0, b = 0, c = 0;
-};
-Characteristic characteristic_of(const Eigen::Matrix4d& m) {
-  Characteristic of{.a = m.trace()};
-  for (Eigen::Index i = 0; i < four; ++i)
-    for (Eigen::Index j = i + 1; j < four; ++j) of.b += m(i, i) * m(j, j) - m(i, j) * m(j, i);
-  for (Eigen::Index without = 0; without < four; ++without) {
-    Eigen::Matrix3d minor;
-    for (Eigen::Index i = 0; i < 3; ++i)
-      for (Eigen::Index j = 0; j < 3; ++j) minor(i, j) = m(i + (i >= without), j + (j >= without));
-    of.c += minor.determinant();
-  }
-  return of;
+  for (const HousingLink& link : housing_links(scene, orbit, {})) map = map_of(link) * map;
+  return map;
 }
 
 }  // namespace
 
+// From its values at 1, -1 and i; a power of a map that is infinite in a graze would have no digits there.
+HousingCharacteristic housing_characteristic(const FollowedScene& scene, const Orbit& orbit) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  const std::vector<HousingLink> links = housing_links(scene, orbit, {});
+  const double at_1 = changes_of<double>(links, 1.0, 1.0).determinant(),
+               at_minus_1 = changes_of<double>(links, -1.0, 1.0).determinant();
+  const std::complex<double> at_i =
+      changes_of<std::complex<double>>(links, std::complex<double>(0.0, 1.0), 1.0).determinant();
+  HousingCharacteristic found;
+  for (const HousingLink& link : links)
+    for (std::size_t i = 0; i < of_wall_impact; ++i) found.leading *= link.by_end[i][i];
+  found.determinant = std::exp(-2 * p.oscillator.damping * orbit.advance() / p.oscillator.frequency) *
+                      std::pow(p.loose.restitution, 2 * static_cast<double>(orbit.size()));
+  const double sum = (at_minus_1 - at_1) / 2, difference = at_i.imag();  // a + c, a - c
+  found.a = (sum + difference) / 2, found.c = (sum - difference) / 2;
+  found.b = (at_1 + at_minus_1) / 2 - found.leading * (1 + found.determinant);
+  return found;
+}
+
 // If two multipliers have the product 1, the polynomial is (s^2 + p s + 1)(s^2 + q s + D) with p = (c - a)/(1 - D) and
 // q = (a D - c)/(1 - D).
-double HousingMap::distance_to_unit_product() const {
-  if (!(determinant < 1 - 1e-9)) return 1.0;  // nothing contracts, so that all pairs have it
-  const auto [a, b, c] = characteristic_of(matrix_of(map));
+double HousingCharacteristic::distance_to_unit_product() const {
   const double D = determinant;
-  return denominator * denominator * ((b - 1 - D) * (1 - D) * (1 - D) - (c - a) * (a * D - c));
+  if (!(D < 1 - 1e-9)) return 1.0;  // nothing contracts, so that all pairs have it
+  return (b - leading * (1 + D)) * leading * (1 - D) * (1 - D) - (c - a) * (a * D - c);
 }
 
-bool HousingMap::would_be_complex() const {
-  const auto [a, b, c] = characteristic_of(matrix_of(map));
-  return std::abs(c - a) < 2 * (1 - determinant);
+bool HousingCharacteristic::would_be_complex() const {
+  return std::abs(c - a) < 2 * (1 - determinant) * std::abs(leading);
 }
 
-std::array<std::complex<double>, 4> HousingMap::multipliers() const { return observables::multipliers_of(map); }
+std::array<std::complex<double>, 4> housing_multipliers(const FollowedScene& scene, const Orbit& orbit) {
+  return observables::multipliers_of(square_of(map_of(scene, orbit)));
+}
 
 Vector direction_of_daughter_in_housing(const FollowedScene& scene, const Orbit& orbit, const Orbit& daughter,
                                         double speed_unit) {
-  const Eigen::Matrix4d back = matrix_of(housing_map(scene, orbit).map) + Eigen::Matrix4d::Identity();
+  const Eigen::Matrix4d back = map_of(scene, orbit) + Eigen::Matrix4d::Identity();
   Eigen::Vector4d change = Eigen::JacobiSVD<Eigen::Matrix4d>(back, Eigen::ComputeFullV).matrixV().col(3);
   Vector direction;
   for (const HousingLink& link : housing_links(scene, daughter, {})) {

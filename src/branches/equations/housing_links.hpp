@@ -37,23 +37,24 @@ struct HousingMultiplier {
                                                    const std::vector<OrbitEquations::Axis>& axes, int multiplier,
                                                    double speed_unit);
 
-/// The derivative of the map of one impact on a wall to the same impact a period, or half a period, later.
-struct HousingMap {
-  Square4 map{};
-  double denominator = 1.0;  ///< product of z' over nu at all impacts, without which the map is infinite in a graze
-  double determinant = 1.0;  ///< of the map: e^(-2 h T) R^(2 n)
+/// The characteristic polynomial of the map from one impact on a wall to the same impact a period, or half a period,
+/// later: `leading` times s^4 - a s^3 + b s^2 - c s + D. All but D are multiplied by `leading`, which is 0 in a graze.
+struct HousingCharacteristic {
+  double leading = 1.0, a = 0.0, b = 0.0, c = 0.0;
+  double determinant = 1.0;  ///< D, the product of the multipliers: e^(-2 h T) R^(2 n)
 
-  /// Zero if the product of two multipliers is 1; finite in a graze.
+  /// Its value at +1 or -1: zero if that is a multiplier.
+  [[nodiscard]] double at(int multiplier) const { return leading * (1 + determinant) + b - multiplier * (a + c); }
+  /// Zero if the product of two multipliers is 1.
   [[nodiscard]] double distance_to_unit_product() const;
   /// Whether two multipliers with such a product would be a complex pair.
   [[nodiscard]] bool would_be_complex() const;
-  [[nodiscard]] std::array<std::complex<double>, 4> multipliers() const;  ///< the largest modulus first
 };
-/// Zero if `multiplier`, +1 or -1, is a multiplier of the orbit as it is kept; finite in a graze.
-[[nodiscard]] double distance_to_in_housing(const FollowedScene& scene, const Orbit& orbit, int multiplier);
+[[nodiscard]] HousingCharacteristic housing_characteristic(const FollowedScene& scene, const Orbit& orbit);
 
-/// Of motion without impacts that of its state: the loose mass has two multipliers of 1.
-[[nodiscard]] HousingMap housing_map(const FollowedScene& scene, const Orbit& orbit);
+/// The multipliers of the orbit as it is kept, the largest modulus first; NaN in a graze. Of motion without impacts two
+/// are 1, those of the loose mass.
+[[nodiscard]] std::array<std::complex<double>, 4> housing_multipliers(const FollowedScene& scene, const Orbit& orbit);
 
 /// The unit direction from a flip, or a loss of symmetry, into the motion that is born there, as
 /// `direction_of_daughter`.

@@ -61,7 +61,7 @@ double hold(const FollowedScene& scene, const OrbitImpact& event) {
 Multipliers multipliers_in_housing(const FollowedScene& scene, const Orbit& orbit) {
   Multipliers found;
   std::size_t i = 0;
-  for (std::complex<double> multiplier : housing_map(scene, orbit).multipliers()) {
+  for (std::complex<double> multiplier : housing_multipliers(scene, orbit)) {
     found.stable = found.stable && std::abs(multiplier) < 1;
     if (orbit.mirrored) multiplier *= multiplier;
     found.re[i] = multiplier.real(), found.im[i] = multiplier.imag(), ++i;

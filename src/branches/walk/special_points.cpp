@@ -29,20 +29,16 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
   const bool has_impacts = equations.shape().size() > 0;
   const SpecialKind loses = equations.shape().mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
   if (has_impacts && has_loose_mass(equations.scene_at(there->at).loose)) {
-    const auto map_at = [&](const CurvePoint& p) {
-      return housing_map(equations.scene_at(p.at), equations.orbit_at(p.at));
+    const auto characteristic = [&](const CurvePoint& p) {
+      return housing_characteristic(equations.scene_at(p.at), equations.orbit_at(p.at));
     };
     look(
-        loses,
-        [&](const CurvePoint& p) {
-          return distance_to_in_housing(equations.scene_at(p.at), equations.orbit_at(p.at), -1);
-        },
-        false, begin);
+        loses, [&](const CurvePoint& p) { return characteristic(p).at(-1); }, false, begin);
     look(
-        SpecialKind::neimark_sacker, [&](const CurvePoint& p) { return map_at(p).distance_to_unit_product(); }, false,
-        begin);
+        SpecialKind::neimark_sacker, [&](const CurvePoint& p) { return characteristic(p).distance_to_unit_product(); },
+        false, begin);
     std::erase_if(found, [&](const FoundPoint& f) {  // two real multipliers with such a product are no bifurcation
-      return f.kind == SpecialKind::neimark_sacker && !map_at(f.point).would_be_complex();
+      return f.kind == SpecialKind::neimark_sacker && !characteristic(f.point).would_be_complex();
     });
   } else if (has_impacts) {
     look(
