@@ -108,8 +108,10 @@ PointOfOutput point_of_sweep(const std::string& path, const Places& where) {
   try {
     const point::Problem problem = started_problem(sweep, point);
     const branches::MotionStart motion = branches::settled(problem);
-    out.scene.start = {motion.state.x * factor_of(problem.units, Quantity::length),
-                       motion.state.v * factor_of(problem.units, Quantity::velocity), motion.phase};
+    Start start{motion.state.x, motion.state.v, motion.phase};
+    sweep::add_base(start, problem, -1);
+    out.scene.start = {start.displacement * factor_of(problem.units, Quantity::length),
+                       start.velocity * factor_of(problem.units, Quantity::velocity), start.phase};
     if (has_loose_mass(problem.loose))
       out.scene.loose.place = motion.state.z * factor_of(problem.units, Quantity::length),
       out.scene.loose.velocity = motion.state.w * factor_of(problem.units, Quantity::velocity);

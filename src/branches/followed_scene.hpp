@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -61,8 +62,11 @@ struct SceneNumbers : BasicScene<Number> {
     if (this->oscillator.stiffness != 0) return this->oscillator.load / this->oscillator.stiffness;
     return is_finite(lower) && is_finite(upper) ? Number((lower + upper) / 2) : Number(0);
   }
-  /// In the frame of what is shaken.
-  [[nodiscard]] LeadingForce<Number> force() const { return force_in_frame(this->oscillator, this->shaking); }
+  /// In the frame of what is shaken, with a loose mass in that of the ground.
+  [[nodiscard]] LeadingForce<Number> force() const {
+    if (this->loose.ratio != 0) return force_on_ground(this->oscillator, this->shaking);
+    return force_in_frame(this->oscillator, this->shaking);
+  }
 };
 
 /// The numbers of a scene; `vary(given)` sets those of its parameters that vary, with their derivatives.
@@ -90,8 +94,12 @@ using Along = Dual<double, 1>;
 /// Whether the stiffness of the spring, per unit mass, changes with a parameter.
 [[nodiscard]] bool varies_stiffness(const FollowedScene& scene, Parameter parameter);
 
-/// Its oscillator in the frame of what is shaken, with the force there (eqs. 39 and 40).
+/// Its oscillator in the frame of what is shaken, with the force there (eqs. 39 and 40), or on the ground (eq. 69).
 [[nodiscard]] Oscillator oscillator_in_frame(const Scene& scene);
+
+/// Relative motion less that in which a scene is computed: of a loose mass on a shaken base, which is computed on the
+/// ground; nothing if they are the same.
+[[nodiscard]] std::optional<FrameMotion> frame_of_results(const Scene& scene);
 
 /// The problem that a branch begins with, or another scene on it, as it is computed.
 [[nodiscard]] point::Problem with_scene(const StartProblem& start, const FollowedScene& scene);

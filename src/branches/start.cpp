@@ -272,7 +272,7 @@ Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric
     throw StartError(std::string("a branch needs a force, whose periods it counts: set ") +
                      (is_si ? "machine.force" : "scene.f"));
   const MotionStart near = period == 0 ? settled(problem) : near_start(problem, period);
-  if (has_loose_mass(problem.loose)) return start_in_housing(problem, near, symmetric);
+  if (has_loose_mass(problem.loose)) return start_in_housing(start, problem, near, symmetric);
   if (has_friction(problem.friction)) return slipping_start(problem, near, symmetric);
   if (has_soft_stop(problem.stops)) return soft_start(given, problem, near, symmetric);
   // Newton's method on the map of the periods; unless a contact appears or vanishes on the way it gets there

@@ -8,10 +8,10 @@ namespace clatter::branches {
 namespace {
 
 /// Gives each impact place and velocity of the main mass before it, which moves alone from impact to impact.
-void add_main_mass(const point::Problem& problem, const attractors::SectionState& from, double phase, Orbit& orbit) {
-  with_arcs(problem, [&]<Effects E>() {
-    const HousingFlights<double, E> flights{SceneNumbers<double>{problem}};
-    const double nu = problem.oscillator.frequency, middle = flights.parameters().middle();
+void add_main_mass(const FollowedScene& scene, const attractors::SectionState& from, double phase, Orbit& orbit) {
+  with_arcs(scene, [&]<Effects E>() {
+    const HousingFlights<double, E> flights{numbers_of<double>(scene)};
+    const double nu = scene.oscillator.frequency, middle = flights.parameters().middle();
     double place = from.x - middle, v = from.v;
     for (OrbitImpact& impact : orbit.impacts) {
       const motion::Motion<double> m = flights.main_from(phase, place, v).at((impact.phase - phase) / nu);
@@ -23,7 +23,8 @@ void add_main_mass(const point::Problem& problem, const attractors::SectionState
 
 }  // namespace
 
-Orbit start_in_housing(const point::Problem& problem, const MotionStart& near, bool symmetric) {
+Orbit start_in_housing(const FollowedScene& scene, const point::Problem& problem, const MotionStart& near,
+                       bool symmetric) {
   const auto motion =
       attractors::periodic_motion(problem, near.state, static_cast<std::size_t>(near.periods), near.phase);
   if (!motion) throw StartError("the run from the start fails");
@@ -41,7 +42,7 @@ Orbit start_in_housing(const point::Problem& problem, const MotionStart& near, b
           "where it only strikes, or sweep the parameter with follow instead");
     impact.phase += near.phase;
   }
-  add_main_mass(problem, from, near.phase, *orbit);
+  add_main_mass(scene, from, near.phase, *orbit);
   return orbit->half_if_same(1e-6, symmetric);
 }
 

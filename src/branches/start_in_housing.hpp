@@ -4,8 +4,10 @@
 
 namespace clatter::branches {
 
-/// The periodic motion of a loose mass near a state, as `start_orbit` gives it. Throws StartError if it meets no wall
+/// The periodic motion of a loose mass near a state, as `start_orbit` gives it, of a scene and of the same problem as
+/// it is computed. Throws StartError if it meets no wall
 /// or is pressed onto one, as neither is followed.
-[[nodiscard]] Orbit start_in_housing(const point::Problem& problem, const MotionStart& near, bool symmetric);
+[[nodiscard]] Orbit start_in_housing(const FollowedScene& scene, const point::Problem& problem, const MotionStart& near,
+                                     bool symmetric);
 
 }  // namespace clatter::branches

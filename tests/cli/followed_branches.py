@@ -43,6 +43,8 @@ class BranchCampaign:
             self.jumps(i, number, found["nu"][on], scene.nu)
             self.turns(i, number, found["nu"][on], special)
             self.crosses(i, number, found["nu"][on], found["multiplier_re"][on], found["multiplier_im"][on], special)
+            if scene.loose_mass:
+                self.leaves(i, number, found["nu"][on], found["multiplier_re"][on], found["multiplier_im"][on], special)
         self.twice(i, found)
         self.run_again(i, scene, found)
 
@@ -78,6 +80,23 @@ class BranchCampaign:
             ):
                 self.fail("crosses", i, f"branch {number} at nu = {low} ... {high}: {special}")
 
+    def leaves(self, i, number, nu, real, imaginary, special):
+        """Where another number of multipliers is outside the unit circle there is a special point: a pair that is not
+        real leaves it in a Neimark-Sacker bifurcation."""
+        size = np.hypot(real, imaginary)
+        outside, pairs = np.sum(size > 1, axis=1), np.sum((size > 1) & (imaginary != 0), axis=1)
+        for k in np.flatnonzero(outside[:-1] != outside[1:]):
+            if not np.all(size[k : k + 2] < 10):
+                continue  # a graze in between
+            low, high = sorted((nu[k], nu[k + 1]))
+            if abs(pairs[k] - pairs[k + 1]) == 2 and abs(outside[k] - outside[k + 1]) == 2:
+                kinds = ("Neimark-Sacker",)
+            else:
+                kinds = ("fold", "flip", "symmetry breaking", "graze", "Neimark-Sacker")
+            near = 2 * np.max(np.abs(np.diff(nu[max(0, k - 1) : k + 3]))) + 1e-6  # a fold lies beyond both
+            if not any(kind in kinds and low - near <= at <= high + near for kind, at in special):
+                self.fail("leaves", i, f"branch {number} at nu = {low} ... {high}: {special}")
+
     def twice(self, i, found):
         """No motion is on two branches, but where they meet: a branch doesn't pass through the middle of another."""
         for number in range(int(found["branch"].max(initial=-1)) + 1):
@@ -94,13 +113,14 @@ class BranchCampaign:
     def goes_through(found, points, at):
         """Whether the curve through points, a cubic of nu between two of them, goes through another point."""
         nu, there = found["nu"][points], found["nu"][at]
+        names = ("x", "v", "z", "w") if "z" in found else ("x", "v")
         for k in np.flatnonzero((nu[1:-2] - there) * (nu[2:-1] - there) <= 0):
             four = nu[k : k + 4]
             if not (np.all(np.diff(four) > 0) or np.all(np.diff(four) < 0)):
                 continue
             weights = [np.prod([(there - b) / (a - b) for b in four if b != a]) for a in four]
-            curved = max(abs(found[name][points[k : k + 4]] @ [-1, 3, -3, 1]) for name in ("x", "v"))
-            off = max(abs(found[name][points[k : k + 4]] @ weights - found[name][at]) for name in ("x", "v"))
+            curved = max(abs(found[name][points[k : k + 4]] @ [-1, 3, -3, 1]) for name in names)
+            off = max(abs(found[name][points[k : k + 4]] @ weights - found[name][at]) for name in names)
             if curved < 1e-4 and off < 1e-2 * curved + 1e-9:
                 return True
         return False

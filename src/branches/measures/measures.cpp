@@ -69,11 +69,32 @@ Multipliers multipliers_in_housing(const FollowedScene& scene, const Orbit& orbi
   return found;
 }
 
-/// The state at the end of a flight in a housing, a time after its beginning.
+/// The state on a flight in a housing when the forcing phase is `phase`.
 template <Effects E>
-SectionState state_on(const motion::RelativeArc<double, E>& arc, double time) {
-  const motion::Motion<double> m = arc.at(time), main = arc.main_at(m);
-  return {main.x, main.v, m.x, m.v};
+SectionState state_on(const motion::RelativeArc<double, E>& arc, double begin, double phase,
+                      const std::optional<FrameMotion>& frame) {
+  const double nu = arc.constants().nu;
+  const motion::Motion<double> m = arc.at((phase - begin) / nu), main = arc.main_at(m);
+  if (!frame) return {main.x, main.v, m.x, m.v};
+  const SineCosine<double> theta = frame->at(phase / nu);
+  return {main.x + frame->displacement(theta), main.v + frame->velocity(theta), m.x, m.v};
+}
+
+observables::Extrema::Values extrema_in_housing(const FollowedScene& scene, const Orbit& whole) {
+  // of a span that begins at phase 0 and ends with the first impact, where the main mass has this state
+  const OrbitImpact& first = whole.impacts.at(0);
+  const observables::ObservedSpan span{
+      .scene = scene, .turns = first.phase / (2 * std::numbers::pi), .frame = frame_of_results(scene)};
+  observables::Extrema::Observer extrema({}, span);
+  each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
+    const double since = begin / arc.constants().nu;
+    extrema.arc(arc.main(), since, length), extrema.in_housing(arc, since, length);
+  });
+  for (const OrbitImpact& impact : whole.impacts) {
+    const double wall = impact.side == Side::upper ? scene.loose.upper : scene.loose.lower;
+    extrema.strike({0.0, impact.side, impact.before, 0.0, wall, impact.main, impact.main, 0.0});
+  }
+  return extrema.finish(span, numbers_of<double>(scene).middle() + first.place, first.main);
 }
 
 }  // namespace
@@ -94,6 +115,12 @@ Multipliers multipliers(const FollowedScene& scene, const Orbit& orbit) {
 SectionState state_at(const FollowedScene& scene, const Orbit& orbit, std::size_t i, double phase) {
   SectionState state;
   std::size_t flight = 0;
+  if (has_loose_mass(scene.loose)) {
+    each_flight_in_housing(scene, orbit, [&](const auto& arc, double begin, double) {
+      if (flight++ == i) state = state_on(arc, begin, phase, frame_of_results(scene));
+    });
+    return state;
+  }
   each_flight(scene, orbit, [&](const auto& arc, double begin, double) {
     if (flight++ != i) return;
     const auto m = arc.at((phase - begin) / arc.constants().nu);
@@ -107,9 +134,10 @@ SectionState state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit)
   constexpr double turn = 2 * std::numbers::pi;
   const Orbit whole = orbit.whole();
   if (has_loose_mass(scene.loose)) {
+    const auto frame = frame_of_results(scene);
     each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
       const double nu = arc.constants().nu, next = std::ceil(begin / turn) * turn;
-      if (!state && next <= begin + nu * length) state = state_on(arc, (next - begin) / nu);
+      if (!state && next <= begin + nu * length) state = state_on(arc, begin, next, frame);
     });
     return state.value_or(SectionState{});
   }
@@ -133,18 +161,9 @@ SectionState state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit)
 }
 
 observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& orbit) {
-  observables::Extrema::Observer extrema;
   const Orbit whole = orbit.whole();
-  if (has_loose_mass(scene.loose)) {
-    each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
-      extrema.arc(arc.main(), begin, length), extrema.in_housing(arc, begin, length);
-    });
-    for (const OrbitImpact& impact : whole.impacts) {
-      const double wall = impact.side == Side::upper ? scene.loose.upper : scene.loose.lower;
-      extrema.strike({0.0, impact.side, impact.before, 0.0, wall, impact.main, impact.main, 0.0});
-    }
-    return extrema.finish({.scene = scene}, 0.0, 0.0);
-  }
+  if (has_loose_mass(scene.loose)) return extrema_in_housing(scene, whole);
+  observables::Extrema::Observer extrema;
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) { extrema.arc(arc, begin, length); });
   const SceneNumbers<double> p = numbers_of<double>(scene);
   for (const OrbitImpact& impact : whole.impacts) {

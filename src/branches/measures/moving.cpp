@@ -146,6 +146,12 @@ Along harmonic(const Moving& moving) {
   const Along a = unit_spring ? (1 - p.oscillator.frequency) * (1 + p.oscillator.frequency)
                               : p.oscillator.stiffness - p.oscillator.frequency * p.oscillator.frequency,
               b = 2 * p.oscillator.damping * p.oscillator.frequency;
+  if (is_shaken(moving.scene.shaking) && p.loose.ratio != 0) {  // relative to the base, less B = -i b e^{i phase}/2
+    const Along square = a * a + b * b, &shift = p.shaking.phase;
+    const Along x = (re * a + im * b) / square - p.shaking.base * sin(shift) / 2,
+                y = (im * a - re * b) / square + p.shaking.base * cos(shift) / 2;
+    return 2 * sqrt(x * x + y * y);
+  }
   return 2 * sqrt(re * re + im * im) / sqrt(a * a + b * b);
 }
 
