@@ -265,7 +265,9 @@ class Follower {
                 without = touch.halts ? halting_at_stop(exact->scene, with, touch.impact) : with.without(touch.impact);
     last.scene = exact->scene, last.orbit = touch.appears ? without : with;
     record_.add(last);
-    if (!touch.halts && resting().waits_beyond(last, with.impacts[touch.impact].side, generation_))
+    if (has_loose_mass(problem_.loose)
+            ? touch.appears && record_.is_of_cascade(last)
+            : !touch.halts && resting().waits_beyond(last, with.impacts[touch.impact].side, generation_))
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;

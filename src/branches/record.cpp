@@ -98,6 +98,16 @@ void Record::end(const BranchPoint& last, std::string reason, bool failed) {
   found_.ends.push_back({branch_, last.scene, std::move(reason), failed, axes_.size() > 1});
 }
 
+double Record::way_to(const BranchPoint& last) const {
+  const auto first = std::ranges::find(found_.points, branch_, &BranchPoint::branch);
+  return value_of(last.scene, axes_[0].parameter) - value_of(first->scene, axes_[0].parameter);
+}
+
+bool Record::is_of_cascade(const BranchPoint& last) const {
+  const double way = way_to(last);
+  return last.orbit.size() >= 8 && way != 0 && std::abs(way) <= 1e-5 * axes_[0].unit;
+}
+
 std::optional<std::size_t> Record::branch_of(const std::string& word, double value) const {
   for (std::size_t i = 0; i + 1 < found_.points.size(); ++i) {
     const BranchPoint &one = found_.points[i], &other = found_.points[i + 1];

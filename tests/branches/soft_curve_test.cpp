@@ -106,7 +106,7 @@ double least_rate(const BranchPoint& point) {
   const SceneNumbers<double> p = numbers_of<double>(point.scene);
   double least = std::numeric_limits<double>::infinity();
   for (const OrbitImpact& impact : point.orbit.impacts) {
-    const auto& [side, phase, before, rest, event, place] = impact;
+    const auto& [side, phase, before, rest, event, place, main] = impact;
     least = std::min(least, std::abs(before));
     if (event != EventKind::separation && event != EventKind::renewal) continue;
     const double relaxation = p.soft_stop(side).relaxation(), x = p.position(side) - relaxation * before;

@@ -64,7 +64,9 @@ Multipliers multipliers_in_housing(const FollowedScene& scene, const Orbit& orbi
   for (std::complex<double> multiplier : housing_multipliers(scene, orbit)) {
     found.stable = found.stable && std::abs(multiplier) < 1;
     if (orbit.mirrored) multiplier *= multiplier;
-    found.re[i] = multiplier.real(), found.im[i] = multiplier.imag(), ++i;
+    found.re[i] = multiplier.real(), found.im[i] = multiplier.imag();
+    if (i > 0 && found.im[i] > 0 && found.im[i] == -found.im[i - 1]) std::swap(found.im[i - 1], found.im[i]);
+    ++i;
   }
   return found;
 }

@@ -186,9 +186,8 @@ void RestingBranch::note_maxima(double here, double next, const Orbit& like) {
 }
 
 bool RestingBranch::waits_beyond(const BranchPoint& last, Side stop, std::int64_t generation) {
-  const auto first = std::ranges::find(record_.found().points, record_.branch(), &BranchPoint::branch);
-  const double end = value_of(last.scene, settings_.along), distance = end - value_of(first->scene, settings_.along);
-  if (last.orbit.size() < 8 || distance == 0 || std::abs(distance) > 1e-5 * width_) return false;
+  if (!record_.is_of_cascade(last)) return false;
+  const double distance = record_.way_to(last);
   const auto resting = resting_ahead(last, stop, distance);
   if (resting)
     waiting_.push_back(

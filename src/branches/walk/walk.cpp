@@ -8,8 +8,10 @@ namespace clatter::branches {
 
 std::optional<CurvePoint> Walk::after(double s) const {
   if (s == 0) return here_;
-  const auto at = corrected(equations_, sum(here_.at, s, here_.tangent), here_.tangent, limits_.tolerance);
-  if (!at) return std::nullopt;
+  const Vector predicted = sum(here_.at, s, here_.tangent);
+  const auto at = corrected(equations_, predicted, here_.tangent, limits_.tolerance);
+  // where another branch crosses this one at a right angle, all its points solve the equations of a step
+  if (!at || !(largest(sum(*at, -1.0, predicted)) <= s / 2 + 1e-9)) return std::nullopt;
   const auto along = tangent(equations_, *at, here_.tangent);
   if (!along) return std::nullopt;
   return CurvePoint{*at, *along, here_.arclength + s};
