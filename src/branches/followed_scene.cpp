@@ -72,7 +72,8 @@ SceneNumbers<Along> numbers_along(const FollowedScene& scene, Parameter paramete
 
 bool keeps_symmetry(const FollowedScene& scene, Parameter parameter) {
   const bool moves_equilibrium = varies_stiffness(scene, parameter) && mirror_centre(scene) != 0.0;
-  return parameter.keeps_symmetry() && !moves_equilibrium;
+  const bool is_wall = parameter.is_loose() && parameter.role() == Role::position;  // any two have a middle
+  return (parameter.keeps_symmetry() || is_wall) && !moves_equilibrium;
 }
 
 bool varies_stiffness(const FollowedScene& scene, Parameter parameter) {

@@ -204,18 +204,20 @@ void require_start_in_range(const FollowedScene& scene, Parameter parameter, con
   const Stops& stops = scene.stops;
   const std::string asked = "branch." + key + " = " + std::string(parameter.key()),
                     interval = key == "along" ? "branch.range" : "branch.across_range";
-  require_equal_stops(scene, parameter, asked);
-  require_soft_stop(scene, parameter, asked);
+  if (parameter.is_loose())
+    require_walls_in_range(scene, parameter, range);
+  else
+    require_equal_stops(scene, parameter, asked), require_soft_stop(scene, parameter, asked);
   const double at = value_of(scene, parameter), width = range[1] - range[0];
   if (!std::isfinite(at))
-    throw StartError((parameter.role() == Role::position ? "there is no stop to move by branch." + key
+    throw StartError((parameter.role() == Role::position ? "there is no stop or wall to move by branch." + key
                                                          : asked + " has no finite value at the start") +
                      "; give " + key_in_section(scene, parameter));
   if (key == "along" && !std::isfinite(width)) throw StartError(interval + " has no end; give two finite numbers");
   if (!(at >= range[0] && at <= range[1]))
     throw StartError("the start lies outside " + interval + "; give " + key_in_section(scene, parameter) +
                      " a value within it");
-  const bool is_place = parameter.role() == Role::position && !parameter.is_of_both();
+  const bool is_place = parameter.role() == Role::position && !parameter.is_of_both() && !parameter.is_loose();
   if (is_place && parameter.side() == Side::lower && range[1] >= stops.upper && std::isfinite(range[1]))
     throw StartError(interval + " reaches the upper stop; end it below stop_upper");
   if (is_place && parameter.side() == Side::upper && range[0] <= stops.lower && std::isfinite(range[0]))

@@ -4,6 +4,10 @@
 
 namespace clatter::branches {
 
+/// Throws StartError if the walls of a loose mass would meet over a range of a parameter, or it moves both, which
+/// differ.
+void require_walls_in_range(const FollowedScene& scene, Parameter parameter, const std::array<double, 2>& range);
+
 /// The periodic motion of a loose mass near a state, as `start_orbit` gives it, of a scene and of the same problem as
 /// it is computed. Throws StartError if it meets no wall
 /// or is pressed onto one, as neither is followed.

@@ -18,6 +18,12 @@ constexpr Parameter loose_mass("loose_mass");
   fail(location, what + " conflicts with 'loose_mass'; " + way_out);
 }
 
+/// The key along which a branch is followed.
+std::optional<Parameter> followed(const Settings& settings) {
+  const Setting* const along = settings.find("branch", "along");
+  return along != nullptr ? Parameter::of(settings.text("branch", "along")) : std::nullopt;
+}
+
 /// Keys of a loose mass need the mass, and that needs a wall.
 void check_completeness(const Settings& settings) {
   for (const Parameter parameter : all_parameters) {
@@ -25,6 +31,9 @@ void check_completeness(const Settings& settings) {
     if (given == nullptr || settings.given(loose_mass) != nullptr) continue;
     fail(given->key_location, in_quotes(given->key->name) + " without 'loose_mass'; give that, or leave it out");
   }
+  if (const auto along = followed(settings); along && along->is_loose() && settings.given(loose_mass) == nullptr)
+    fail(settings.find("branch", "along")->location,
+         "along = " + in_quotes(along->key()) + " without 'loose_mass'; give that, or follow another key");
   const Setting* const mass = settings.given(loose_mass);
   const auto lacks = [&](Parameter wall) {
     const auto is_infinite = [](double value) { return std::isinf(value); };
@@ -76,11 +85,31 @@ void check_force(const Settings& settings) {
     refuse(section->key_location, "a section without a force", "give " + key + ", or observe a trajectory");
 }
 
+/// Refuses a branch along what a scene with a loose mass doesn't have.
+void check_followed(const Settings& settings) {
+  const std::optional<Parameter> along = followed(settings);
+  if (!along) return;
+  const Setting &place = *settings.find("branch", "along"), *const range = settings.find("branch", "range");
+  const Role role = along->role();
+  const bool is_of_stops = role == Role::position || role == Role::restitution || role == Role::softness ||
+                           role == Role::stop_damping || role == Role::friction ||
+                           *along == Parameter("stop_amplitude");
+  if (is_of_stops && !along->is_loose())
+    refuse(place.location, "along = " + in_quotes(along->key()),
+           "the main mass has neither stops nor friction; follow loose_gap, loose_lower, loose_upper or loose_R");
+  const bool needs_positive = *along == loose_mass || *along == Parameter("stiffness");
+  if (needs_positive && range != nullptr && !(settings.interval("branch", "range")[0] > 0))
+    fail(range->location, "range of " + in_quotes(along->key()) + " reaches 0, where there is no " +
+                              (*along == loose_mass ? "loose mass" : "spring to hold the main mass") +
+                              "; begin it above 0");
+}
+
 /// Keys that don't know a loose mass.
 void check_uses(const Settings& settings) {
   if (!named_parameters(settings, "observe", "sensitivity").empty())
     refuse(settings.find("observe", "sensitivity")->key_location, "'sensitivity'",
            "leave it out, and vary a key in [sweep]");
+  check_followed(settings);
   if (const Setting* const across = settings.find("branch", "across"); across != nullptr)
     refuse(across->key_location, "'across'", "leave it and curve out, and follow branches at several values of it");
 }
