@@ -87,6 +87,8 @@ mv "$work"/regimes+*.svg "$out/curves.svg"
 "$source_dir/scripts/plot.py" "$work/branch.h5" --only impact_speed --size 7x4 --format svg -o "$out"
 "$clatter" branch "$source_dir/configs/soft_branch.toml" -o "$work/soft_branch.h5" -q > /dev/null
 "$source_dir/scripts/plot.py" "$work/soft_branch.h5" --only v_max --size 7x4 --format svg -o "$out"
+"$clatter" branch "$source_dir/configs/energy_sink_branch.toml" -o "$work/energy_sink_branch.h5" -q > /dev/null
+"$source_dir/scripts/plot.py" "$work/energy_sink_branch.h5" --only x_max,impact_speed --size 7x5.5 --format svg -o "$out"
 optimal() { # name, then settings of the start
   "$clatter" branch "$source_dir/configs/optimal.toml" -o "$work/$1.h5" -q "${@:2}" > /dev/null
 }

@@ -9,7 +9,7 @@ import unittest
 
 from combinations import Campaign, report
 from followed_branches import BranchCampaign
-from random_scenes import followed_scenes, rough_scenes, rubbed_scenes, slipping_scenes, weak_scenes
+from random_scenes import carrying_scenes, followed_scenes, rough_scenes, rubbed_scenes, slipping_scenes, weak_scenes
 from sweep_relations import SweepCampaign
 
 CLATTER = os.environ["CLATTER"]
@@ -43,6 +43,11 @@ class Combinations(unittest.TestCase):
         campaign = BranchCampaign(CLATTER, slipping_scenes(max(40, COUNT // 10), SEED))
         self.assertEqual(report(campaign.failures), "")
         self.assertGreater(campaign.points, 400)
+
+    def test_points_of_branches_with_a_loose_mass_are_motions(self):
+        campaign = BranchCampaign(CLATTER, carrying_scenes(max(30, COUNT // 10), SEED))
+        self.assertEqual(report(campaign.failures), "")
+        self.assertGreater(campaign.points, 100)
 
     def test_points_of_a_sweep_know_where_the_others_end(self):
         """Followed points begin there, and starts are numbered by it."""

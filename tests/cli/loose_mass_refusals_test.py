@@ -27,8 +27,8 @@ class Refusals(CommandLine):
 
     def test_what_does_not_know_it(self):
         self.assert_told(f'{SCENE}[observe]\nsensitivity = "nu"\n', ("loose_mass", "sensitivity"))
-        along = f'{SCENE}[branch]\nalong = "nu"\nrange = [1, 2]\n'
-        self.assert_told(along, ("loose_mass", "branch"), "branch")
+        across = f'{SCENE}[branch]\nalong = "nu"\nrange = [1, 2]\nacross = "f"\ncurve = "fold"\n'
+        self.assert_told(across, ("loose_mass", "across"), "branch")
 
     def test_commands_that_do_not_know_it(self):
         self.write("a.toml", SCENE + "[observe]\nextrema = true\n")

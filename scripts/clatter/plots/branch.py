@@ -30,6 +30,7 @@ MARKS = {  # special point: its symbol, and whether it is filled
     "crossing-sliding": ("<", False),
     "grazing-sliding": (">", False),
     "switching-sliding": ("s", False),
+    "Neimark-Sacker": ("8", True),
 }
 CURVES = {  # special point: name and dashes of its curve in the plane of two parameters
     "fold": ("folds", "-"),
