@@ -21,8 +21,8 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   disks        a sweep on disks that are full at COUNT sizes                   (default 100; about 1 s each)
   combinations COUNT random scenes of all effects together, each written in several ways, by the program,
                and branches, followed sweeps and starts of a tenth of them (default 3000; about 0.2 s each)
-  sensitivity  derivatives by keys of COUNT random scenes: what units demand of them, and differences of runs
-               (default 3000; about 40 ms each)
+  sensitivity  derivatives by keys of COUNT random scenes, and as many with a loose mass: what units demand of them,
+               and differences of runs (default 3000; about 40 ms each)
   releases     the periods and impacts of COUNT scenes that rest now and then, in 60 digits
                (default 300; about 0.5 s each)
   verify       COUNT random scenes certified and proved by clatter-verify, and all points of the shipped
@@ -47,7 +47,8 @@ case "${1-}" in
   kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=1000 ;;
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;
   combinations) filter=combinations_test.Combinations count=3000 ;;
-  sensitivity) filter=sensitivity_relations_test.OfRandomScenes count=3000 ;;
+  sensitivity) count=3000
+    filter='sensitivity_relations_test.OfRandomScenes loose_mass_sensitivity_test.OfRandomScenes' ;;
   releases) filter=releases_test.Releases.test_random_rests_are_told_as_60_digits_tell_them count=300 ;;
   verify) filter=verify_test.Verify count=100000 ;;
   scenes) filter=hard_scenes_test.HardScenes count=1 ;;
@@ -71,7 +72,8 @@ if [[ $filter == *_test.* ]]; then
   [[ $1 != starts ]] || export CLATTER_ALL_STARTS=1
   [[ -x $CLATTER ]] || { echo "long_checks.sh: $CLATTER is missing; scripts/test.sh builds it" >&2; exit 2; }
   cd "$top/tests/cli"
-  exec /usr/bin/python3 -m unittest -v "$filter"
+  read -ra names <<< "$filter"
+  exec /usr/bin/python3 -m unittest -v "${names[@]}"
 fi
 
 program=$top/build/release/tests/$tests

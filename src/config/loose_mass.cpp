@@ -106,9 +106,6 @@ void check_followed(const Settings& settings) {
 
 /// Keys that don't know a loose mass.
 void check_uses(const Settings& settings) {
-  if (!named_parameters(settings, "observe", "sensitivity").empty())
-    refuse(settings.find("observe", "sensitivity")->key_location, "'sensitivity'",
-           "leave it out, and vary a key in [sweep]");
   check_followed(settings);
   if (const Setting* const across = settings.find("branch", "across"); across != nullptr)
     refuse(across->key_location, "'across'", "leave it and curve out, and follow branches at several values of it");

@@ -8,27 +8,40 @@
 namespace clatter::config {
 namespace {
 
+/// Whether a main mass that carries a loose one lacks what a parameter is of: stops of its own, and friction.
+bool is_without_loose_mass(Parameter parameter) {
+  const bool is_of_stops = parameter.is_of_both() || parameter.side() != Side::none || parameter == "stop_amplitude";
+  return !parameter.is_loose() && (is_of_stops || parameter.role() == Role::friction);
+}
+
 /// The keys by which steady motion has derivatives.
-std::vector<std::string_view> keys_of_motion(std::string_view section) {
+std::vector<std::string_view> keys_of_motion(const Settings& settings) {
   std::vector<std::string_view> names;
-  for (const Parameter parameter : all_parameters)
-    if (parameter.is_in(section) && parameter.role() != Role::start && !parameter.is_loose() &&
+  const bool is_housed = has_loose_mass(settings);
+  for (const Parameter parameter : all_parameters) {
+    const bool is_its = is_housed ? !is_without_loose_mass(parameter) : !parameter.is_loose();
+    if (parameter.is_in(settings.scene_section) && parameter.role() != Role::start && is_its &&
         !parameter.row().is_with_unit)
       names.push_back(parameter.key());
+  }
   return names;
 }
 
 /// Throws ConfigError if a name is no such key.
 void check_name(const Settings& settings, const Setting& names, const std::string& name) {
   const std::string section(settings.scene_section), message = names_key(names, name);
-  const std::vector<std::string_view> known = keys_of_motion(section);
+  const std::vector<std::string_view> known = keys_of_motion(settings);
   if (std::ranges::find(known, name) != known.end()) return;
   const std::optional<Parameter> parameter = Parameter::of(name);
   if (parameter && parameter->role() == Role::start)
     fail(names.location, message + ", a start, which steady motion doesn't depend on; leave it out");
+  if (parameter && has_loose_mass(settings) && is_without_loose_mass(*parameter))
+    fail(names.location, message + ", which conflicts with 'loose_mass'; leave it out");
   if (parameter && !counterpart_of(name).empty())
     fail(names.location, message + ", no key of [" + section + "], which describes this scene; take " +
                              in_quotes(counterpart_of(name)));
+  if (parameter && parameter->is_loose())
+    fail(names.location, message + " without 'loose_mass'; give that, or leave it out");
   fail(names.location,
        message + ", which is no key of [" + section + ']' + suggestion(name, known, "; the keys are: "));
 }
@@ -38,7 +51,9 @@ void check_given(const Settings& settings, const Setting& names, Parameter key) 
   const std::string message = names_key(names, key.key());
   const bool is_distance = key.is_of_both() && key.role() == Role::position;
   if (is_distance && settings.given(key) == nullptr)
-    fail(names.location, message + ", and the stops are given one by one; name 'stop_lower' or 'stop_upper'");
+    fail(names.location,
+         message + (key.is_loose() ? ", and the walls are given one by one; name 'loose_lower' or 'loose_upper'"
+                                   : ", and the stops are given one by one; name 'stop_lower' or 'stop_upper'"));
   if (key == "quality" && !quantity_given(settings, key))
     fail(names.location, message + ", and the damping isn't given by it; name 'damping' or 'damping_ratio'");
   if (key == "friction_static" && settings.given(key) == nullptr)

@@ -32,8 +32,8 @@ struct WallRule {
 template <class Number>
 class CarryingOscillator {
  public:
-  template <Effects E>
-  CarryingOscillator(const ArcConstants<Number, E>& free, const LooseMass& loose) : of_(of(free, loose)) {}
+  template <Effects E, class Other>
+  CarryingOscillator(const ArcConstants<Number, E>& free, const BasicLooseMass<Other>& loose) : of_(of(free, loose)) {}
 
   /// Calls `function(constants)` with those of the two masses as one.
   template <class Function>
@@ -46,8 +46,8 @@ class CarryingOscillator {
   using Of = ArcConstants<Number, Effects{.damping = damping, .forcing = forcing, .stiffness = true}>;
   using Any = std::variant<Of<Damping::light, Forcing::secular>, Of<Damping::heavy, Forcing::regular>>;
 
-  template <Effects E>
-  [[nodiscard]] static Any of(const ArcConstants<Number, E>& free, const LooseMass& loose) {
+  template <Effects E, class Other>
+  [[nodiscard]] static Any of(const ArcConstants<Number, E>& free, const BasicLooseMass<Other>& loose) {
     const Number eps(loose.ratio), both = 1 + eps;
     const auto make = [&]<class Constants>() -> Any {
       Constants constants = Constants::of(free.h / both, free.f / both, free.nu,

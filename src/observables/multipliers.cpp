@@ -1,6 +1,7 @@
 #include "observables/multipliers.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,12 @@ std::array<std::complex<double>, 4> multipliers_of(const motion::LooseJacobian& 
     return one != other ? one > other : a.imag() > b.imag();
   });
   return found;
+}
+
+std::array<double, 4> change_of_fixed_point(const motion::LooseJacobian& map, const std::array<double, 4>& by_number) {
+  const Eigen::Map<const Eigen::Vector4d> right(by_number.data());
+  const Eigen::Vector4d change = (Eigen::Matrix4d::Identity() - matrix_of(map)).partialPivLu().solve(right);
+  return {change[0], change[1], change[2], change[3]};
 }
 
 double log_norm(const motion::LooseJacobian& map) {

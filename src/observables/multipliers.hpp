@@ -11,6 +11,11 @@ namespace clatter::observables {
 /// entry is not finite.
 [[nodiscard]] std::array<std::complex<double>, 4> multipliers_of(const motion::LooseJacobian& map);
 
+/// How the fixed point of a map changes with a number: the solution d of (1 - M) d = dP, with M the map's derivative by
+/// its point and dP that of its value by the number.
+[[nodiscard]] std::array<double, 4> change_of_fixed_point(const motion::LooseJacobian& map,
+                                                          const std::array<double, 4>& by_number);
+
 /// Logarithm of the largest factor by which a map stretches a change.
 [[nodiscard]] double log_norm(const motion::LooseJacobian& map);
 

@@ -153,7 +153,8 @@ struct ObservedSpan {
   bool undecided = false;       ///< whether the motion has a period isn't known
   bool stands_still = false;    ///< nothing moves any more
   const FourierScratch* fourier = nullptr;  ///< for harmonics from samples
-  std::optional<FrameMotion> frame{};       ///< if absolute motion is asked for, and something is shaken
+  std::optional<FrameMotion> frame{};       ///< of observed motion less computed motion, if something is shaken
+  int frame_sign = 0;                       ///< that of the shaking in it, also where nothing is shaken
   const GivenScene* given = nullptr;        ///< if derivatives by its numbers are asked for, in the units below
   Units units{};
 

@@ -9,6 +9,7 @@
 #include "motion/dry_friction.hpp"
 #include "observables/course_extremes.hpp"
 #include "observables/course_slips.hpp"
+#include "observables/dual_motion.hpp"
 #include "observables/quadrature.hpp"
 #include "scene/smooth_effects.hpp"
 
@@ -20,13 +21,6 @@ using motion::Event;
 /// By the displacement and the velocity at the beginning of the period, and by the key.
 using Along = Dual<double, 3>;
 constexpr std::size_t by_x = 0, by_v = 1, by_key = 2;
-
-/// A number whose derivatives are those of another one.
-Along with_slope_of(double value, const Along& other) {
-  Along number = other;
-  number.value = value;
-  return number;
-}
 
 /// Follows a course on numbers that carry derivatives. Where a stretch ends is known; by how much that instant changes
 /// follows from the surface of its event, to first order.
@@ -40,6 +34,7 @@ class Walk {
         extremes_(extremes),
         scene_(scene),
         force_(force_in_frame(scene.oscillator, scene.shaking)),
+        frame_(span, scene, force_.lead),
         mass_(mass),
         still_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude,
                                                   scene.oscillator.frequency, scene.oscillator.load,
@@ -94,7 +89,7 @@ class Walk {
     stands_ = true, state_.v = Along(0);
     each_place(i, [&](const Place& place) {
       Along x = state_.x;
-      if (place.quarter >= 0) x += frame_at(sine_cosine_of_turns(place.quarter / 4.0).sine, 0.0, 0.0).x;
+      if (place.quarter >= 0) x += frame_.at(sine_cosine_of_turns(place.quarter / 4.0).sine, 0.0, 0.0).x;
       return x;
     });
   }
@@ -128,7 +123,8 @@ class Walk {
   template <Effects of>
   void fly(std::size_t i, const motion::ArcConstants<Along, of>& constants) {
     const Stretch& stretch = course_[i];
-    const motion::Arc<Along, of> arc(constants, start_of(stretch, constants), Along(stretch.anchor));
+    const Motion start = with_slopes_of(stretch.start, stretch.anchor, state_.x, state_.v, state_.phase, constants);
+    const motion::Arc<Along, of> arc(constants, start, Along(stretch.anchor));
     const Motion end = arc.at(Along(stretch.length));
     const Along& nu = scene_.oscillator.frequency;
     Along phase = state_.phase + with_slope_of(0, nu * stretch.length);
@@ -140,21 +136,11 @@ class Walk {
     lose(stretch, arc, end, late);
     each_place(i, [&](const Place& place) {
       if (place.s >= stretch.length)
-        return displacement({end.offset, state_.x, v, end.a, end.sine, end.cosine}, state_.phase);
-      if (!(place.s > 0)) return displacement(arc.start(), before.phase);
-      return turning_point(arc.at(Along(place.s)), before.phase + with_slope_of(0, nu * place.s));
+        return frame_.displacement({end.offset, state_.x, v, end.a, end.sine, end.cosine}, state_.phase);
+      if (!(place.s > 0)) return frame_.displacement(arc.start(), before.phase);
+      return frame_.turning_point(arc.at(Along(place.s)), before.phase + with_slope_of(0, nu * place.s));
     });
     if (stretch.end) meet(*stretch.end);
-  }
-
-  template <Effects of>
-  [[nodiscard]] Motion start_of(const Stretch& stretch, const motion::ArcConstants<Along, of>& constants) const {
-    const motion::Motion<double>& m = stretch.start;
-    const Along x = with_slope_of(m.x, state_.x), offset = with_slope_of(m.offset, state_.x),
-                v = with_slope_of(m.v, state_.v), sine = with_slope_of(m.sine, m.cosine * state_.phase),
-                cosine = with_slope_of(m.cosine, -m.sine * state_.phase);
-    const Along a = constants.acceleration(constants.from_equilibrium(x, Along(stretch.anchor), offset), v, sine);
-    return {offset, x, v, with_slope_of(m.a, a), sine, cosine};
   }
 
   /// By how much the end of a stretch comes later: the surface of its event (eqs. 4 and 50; of a slip the velocity), or
@@ -216,32 +202,6 @@ class Walk {
     return stored;
   }
 
-  /// Displacement, velocity and acceleration in the observed frame.
-  struct Observed {
-    Along x, v, a;
-  };
-  /// Those of what is shaken, from sine and cosine of its phase, and the derivative of that.
-  [[nodiscard]] Observed frame_at(const Along& sine, const Along& cosine, const Along& phase) const {
-    const Along b = scene_.shaking.stops + scene_.shaking.base, &nu = scene_.oscillator.frequency;
-    const Along moved_sine = sine + cosine * phase, moved_cosine = cosine - sine * phase;
-    return {b * moved_sine, b * nu * moved_cosine, -b * nu * nu * moved_sine};
-  }
-  /// `phase` is that of the force.
-  [[nodiscard]] Observed observed(const Motion& m, const Along& phase) const {
-    if (!span_.frame) return {m.x, m.v, m.a};
-    const Along ahead = phase - force_.lead + scene_.shaking.phase;  // of the motion of the frame
-    const auto [sine, cosine] = span_.frame->by_force(m.sine.value, m.cosine.value);
-    const Observed frame = frame_at(sine, cosine, with_slope_of(0, ahead));
-    return {m.x + frame.x, m.v + frame.v, m.a + frame.a};
-  }
-  [[nodiscard]] Along displacement(const Motion& m, const Along& phase) const { return observed(m, phase).x; }
-  /// The search stops a little beside a turning point; to first order the displacement there is x - v^2/(2 a).
-  [[nodiscard]] Along turning_point(const Motion& m, const Along& phase) const {
-    const auto [x, v, a] = observed(m, phase);
-    const Along beyond = -v * v / (2 * a);
-    return std::abs(beyond.value) <= 1e-6 * std::abs(x.value) ? x + beyond : x;
-  }
-
   template <class Displacement>
   void each_place(std::size_t i, const Displacement& displacement) {
     if (extremes_.least.is_in(i)) least_ = displacement(extremes_.least);
@@ -281,6 +241,7 @@ class Walk {
   const Extremes& extremes_;
   const BasicScene<Along>& scene_;
   LeadingForce<Along> force_;
+  DualFrame<Along> frame_;
   Along mass_;                            ///< over that of the units
   motion::ArcConstants<Along, E> still_;  ///< without friction
   motion::Slips<Along, E> slips_;
@@ -296,9 +257,11 @@ class Walk {
   }
 };
 
-/// At k = 0 the formulas of arcs change, so that they have no derivative by k.
+/// At k = 0 the formulas of arcs change, so that they have no derivative by k; and nothing is known of where a loose
+/// mass that begins would strike.
 bool has_derivative(const BasicScene<Along>& scene) {
-  return scene.oscillator.stiffness.value != 0 || scene.oscillator.stiffness.is_constant();
+  const auto begins = [](const Along& number) { return number.value == 0 && !number.is_constant(); };
+  return !begins(scene.oscillator.stiffness) && !begins(scene.loose.ratio);
 }
 
 Sensitivity::ByKey derivative_by(Parameter key, const Course& course, const ObservedSpan& span,

@@ -10,7 +10,10 @@ std::vector<Column<Sensitivity::Values>> Sensitivity::columns(const Settings& se
   const std::vector<Parameter> keys = settings.sensitivity.list();
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const Parameter key = keys[i];
-    std::string_view missing = "the motion has no period, no force drives it, or it grazes a stop";
+    std::string_view missing = settings.loose_sensitivity
+                                   ? "the motion has no period, no force drives it, it grazes a stop or a wall, or a "
+                                     "loose mass strikes none"
+                                   : "the motion has no period, no force drives it, or it grazes a stop";
     const auto add = [&](const std::string& name, Quantity quantity, FrameOf frame, auto ByKey::*member,
                          std::vector<Coordinate> along = {}) {
       const auto put = [i, member](const Values& values, double* out) {
@@ -30,6 +33,12 @@ std::vector<Column<Sensitivity::Values>> Sensitivity::columns(const Settings& se
     add("x_max", Quantity::length, FrameOf::observed, &ByKey::x_max);
     add("period", Quantity::time, FrameOf::any, &ByKey::period);
     add("impact_power", Quantity::power, FrameOf::any, &ByKey::impact_power);
+    if (settings.loose_sensitivity) {
+      add("y_min", Quantity::length, FrameOf::observed, &ByKey::y_min);
+      add("y_max", Quantity::length, FrameOf::observed, &ByKey::y_max);
+      add("z_min", Quantity::length, FrameOf::any, &ByKey::z_min);
+      add("z_max", Quantity::length, FrameOf::any, &ByKey::z_max);
+    }
     missing = "the motion has no period, no force drives it, it grazes a stop, or it doesn't hit this one";
     add("impact_speed", Quantity::velocity, FrameOf::relative, &ByKey::impact_speed, {stop_coordinate()});
   }

@@ -150,6 +150,7 @@ class Point {
     // a section under a force has the phase of the start
     const double after = forced ? 0.0 : static_cast<double>(observed_.from.periods) * integrator_.period();
     span_.theta = forcing_phase(problem_, after), span_.frame = observed_frame(problem_, after);
+    span_.frame_sign = frame_sign(problem_);
     // the base frequency turns once in a transient and in a period of unforced motion, else with the force
     span_.base_turns = span_.counts_as_one_period() ? 1.0 : span_.turns;
     span_.base_frequency = span_.counts_as_one_period() || !forced ? 2 * pi<double>() * span_.base_turns / span_.total

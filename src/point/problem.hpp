@@ -27,15 +27,19 @@ struct Problem : Scene, RunSettings {
   return problem.start.phase - problem.shaking.lead + problem.oscillator.frequency * after;
 }
 
+/// The factor of the shaking in the motion that is added to the computed one: 1 if absolute motion is asked for, and
+/// with a loose mass, whose motion is computed as the ground sees it, -1 if relative motion is; else 0.
+[[nodiscard]] inline int frame_sign(const Problem& problem) {
+  return (problem.observe.frame == Frame::absolute ? 1 : 0) - (has_loose_mass(problem.loose) ? 1 : 0);
+}
+
 /// The motion that is added to the computed one, from the start of a problem on, or from a time after it, if something
-/// is shaken: that of the frame if absolute motion is asked for, and with a loose mass, whose motion is computed as the
-/// ground sees it, its reverse if relative motion is.
+/// is shaken.
 [[nodiscard]] inline std::optional<FrameMotion> observed_frame(const Problem& problem, double after = 0.0) {
-  const bool is_on_ground = has_loose_mass(problem.loose);
-  const bool is_as_computed = (problem.observe.frame == Frame::absolute) == is_on_ground;
-  if (is_as_computed || !is_shaken(problem.shaking)) return std::nullopt;
+  const int sign = frame_sign(problem);
+  if (sign == 0 || !is_shaken(problem.shaking)) return std::nullopt;
   const FrameMotion frame(problem.shaking, problem.oscillator, forcing_phase(problem, after));
-  return is_on_ground ? frame.reversed() : frame;
+  return sign < 0 ? frame.reversed() : frame;
 }
 
 /// The limits of a run of a problem.

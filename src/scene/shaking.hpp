@@ -64,6 +64,7 @@ template <class Number>
   const Number in_phase = f + along * cos(phase) - across * sin(phase),
                quadrature = along * sin(phase) + across * cos(phase);
   if (is_always_zero(quadrature)) return {in_phase, Number(0)};
+  if (quadrature == Number(0)) return {in_phase, quadrature / in_phase};  // a sign, too, with derivatives of both
   return {hypot(in_phase, quadrature), atan2(quadrature, in_phase)};
 }
 

@@ -10,7 +10,7 @@ from command_line import CommandLine
 
 SCENE = "[scene]\nh = 0.02\nf = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_gap = 1.9\nloose_R = 0.6\n"
 MACHINE = '[machine]\nmass = "2 kg"\nstiffness = "8 N/mm"\nforce = "20 N"\nfrequency = "9 Hz"\nloose_mass = "50 g"\n'
-REMEDY = r"expected |leave |give |take |set |remove |use |write |certify motions without |did you mean"
+REMEDY = r"expected |leave |name |give |take |set |remove |use |write |certify motions without |did you mean"
 
 
 class Refusals(CommandLine):
@@ -26,9 +26,19 @@ class Refusals(CommandLine):
         self.assertRegex(said, REMEDY)
 
     def test_what_does_not_know_it(self):
-        self.assert_told(f'{SCENE}[observe]\nsensitivity = "nu"\n', ("loose_mass", "sensitivity"))
+        for key in ("R", "stop_upper", "stop_stiffness", "friction", "stop_amplitude"):
+            asked = f'{SCENE}[observe]\nsensitivity = "nu, {key}"\n'
+            self.assert_told(asked, (f"sensitivity names '{key}'", "loose_mass"))
         across = f'{SCENE}[branch]\nalong = "nu"\nrange = [1, 2]\nacross = "f"\ncurve = "fold"\n'
         self.assert_told(across, ("loose_mass", "across"), "branch")
+
+    def test_derivatives_by_keys_that_it_lacks(self):
+        without = "".join(line + "\n" for line in SCENE.splitlines() if "loose" not in line)
+        self.assert_told(f'{without}[observe]\nsensitivity = "loose_R"\n', ("'loose_R'", "without 'loose_mass'"))
+        walls = SCENE.replace("loose_gap = 1.9", "loose_lower = -1.9")
+        asked = '[observe]\nsensitivity = "loose_gap"\n'
+        self.assert_told(walls + asked, ("'loose_gap'", "name 'loose_lower' or 'loose_upper'"))
+        self.assert_told(f'{SCENE}[observe]\nsensitivity = "loose_x0"\n', ("'loose_x0'", "a start"))
 
     def test_commands_that_do_not_know_it(self):
         self.write("a.toml", SCENE + "[observe]\nextrema = true\n")

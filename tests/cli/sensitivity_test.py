@@ -9,6 +9,7 @@ import unittest
 import h5py
 import numpy as np
 
+from derivatives import by_each
 from runs import RunTest, quoted, toml
 
 CLATTER = os.environ["CLATTER"]
@@ -77,14 +78,6 @@ def thrown_speed(f, nu, friction, friction_static, gap):
         return x - gap, v - speed
 
     return newton(missed, 2.0, 0.6)[1]
-
-
-def by_each(function, values):
-    """The derivatives of a function by its arguments, by complex steps: exact to rounding."""
-    step = 1e-200
-    return {
-        key: function(**{**values, key: value + step * 1j}).imag / step for key, value in values.items()
-    }  # fmt: skip
 
 
 class ClosedForms(RunTest):

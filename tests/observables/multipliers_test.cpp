@@ -160,5 +160,21 @@ TEST(Multipliers, are_sorted_by_their_modulus) {
   EXPECT_TRUE(std::isnan(multipliers_of({{{std::nan(""), 0, 0, 0}, {}, {}, {}}})[0].real()));
 }
 
+/// A map that contracts is applied until nothing changes any more.
+TEST(Multipliers, a_fixed_point_moves_to_where_the_moved_map_leads) {
+  const motion::LooseJacobian map{
+      {{0.4, -0.3, 0.1, 0.2}, {0.2, 0.3, -0.2, 0.1}, {0.1, 0.5, -0.3, 0.2}, {-0.4, 0.1, 0.2, 0.1}}};
+  const std::array<double, 4> by_number{0.7, -1.3, 0.2, 2.1};
+  std::array<double, 4> point{};
+  for (int times = 0; times < 400; ++times) {
+    std::array<double, 4> next = by_number;
+    for (std::size_t row = 0; row < 4; ++row)
+      for (std::size_t column = 0; column < 4; ++column) next[row] += map[row][column] * point[column];
+    point = next;
+  }
+  const std::array<double, 4> change = change_of_fixed_point(map, by_number);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(change[i], point[i], 1e-14);
+}
+
 }  // namespace
 }  // namespace clatter::observables

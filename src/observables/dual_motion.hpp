@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cmath>
+
+#include "motion/arc.hpp"
+#include "observables/observable.hpp"
+
+namespace clatter::observables {
+
+// Motions on numbers that carry derivatives: their values are those of a run, and their phases are those of the force,
+// of which only the derivatives count.
+
+/// A number whose derivatives are those of another one.
+template <class Along>
+[[nodiscard]] Along with_slope_of(double value, const Along& other) {
+  Along number = other;
+  number.value = value;
+  return number;
+}
+
+/// The start of an arc as it was run, with the derivatives of a state.
+template <class Along, Effects E>
+[[nodiscard]] motion::Motion<Along> with_slopes_of(const motion::Motion<double>& m, double anchor, const Along& x_at,
+                                                   const Along& v_at, const Along& phase,
+                                                   const motion::ArcConstants<Along, E>& constants) {
+  const Along x = with_slope_of(m.x, x_at), offset = with_slope_of(m.offset, x_at), v = with_slope_of(m.v, v_at),
+              sine = with_slope_of(m.sine, m.cosine * phase), cosine = with_slope_of(m.cosine, -m.sine * phase);
+  const Along a = constants.acceleration(constants.from_equilibrium(x, Along(anchor), offset), v, sine);
+  return {offset, x, v, with_slope_of(m.a, a), sine, cosine};
+}
+
+/// The observed frame, in which displacements have the motion of what is shaken beyond the computed one, or less.
+template <class Along>
+class DualFrame {
+ public:
+  /// Displacement, velocity and acceleration.
+  struct Observed {
+    Along x, v, a;
+  };
+
+  /// Of a scene whose force leads by `lead`.
+  DualFrame(const ObservedSpan& span, const BasicScene<Along>& scene, const Along& lead)
+      : b_(span.frame_sign * (scene.shaking.stops + scene.shaking.base)),
+        nu_(scene.oscillator.frequency),
+        lead_(lead),
+        phase_(scene.shaking.phase),
+        moves_(!is_always_zero(b_)),
+        frame_(span.scene.shaking, span.scene.oscillator, span.theta) {}
+
+  /// That of the frame, from sine and cosine of its phase, and the derivative of that.
+  [[nodiscard]] Observed at(const Along& sine, const Along& cosine, const Along& phase) const {
+    const Along moved_sine = sine + cosine * phase, moved_cosine = cosine - sine * phase;
+    return {b_ * moved_sine, b_ * nu_ * moved_cosine, -b_ * nu_ * nu_ * moved_sine};
+  }
+  /// A computed motion in the frame, at a phase of the force.
+  [[nodiscard]] Observed observed(const motion::Motion<Along>& m, const Along& phase) const {
+    if (!moves_) return {m.x, m.v, m.a};
+    const auto [sine, cosine] = frame_.by_force(m.sine.value, m.cosine.value);
+    const Observed frame = at(sine, cosine, with_slope_of(0, phase - lead_ + phase_));
+    return {m.x + frame.x, m.v + frame.v, m.a + frame.a};
+  }
+  [[nodiscard]] Along displacement(const motion::Motion<Along>& m, const Along& phase) const {
+    return observed(m, phase).x;
+  }
+  [[nodiscard]] Along turning_point(const motion::Motion<Along>& m, const Along& phase) const {
+    const auto [x, v, a] = observed(m, phase);
+    return turning_point(x, v, a);
+  }
+  /// The search stops a little beside a turning point; to first order the displacement there is x - v^2/(2 a).
+  [[nodiscard]] static Along turning_point(const Along& x, const Along& v, const Along& a) {
+    const Along beyond = -v * v / (2 * a);
+    return std::abs(beyond.value) <= 1e-6 * std::abs(x.value) ? x + beyond : x;
+  }
+
+ private:
+  Along b_, nu_;
+  Along lead_, phase_;  ///< of the force, and of what is shaken
+  bool moves_;
+  FrameMotion frame_;
+};
+
+}  // namespace clatter::observables

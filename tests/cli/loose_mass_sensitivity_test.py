@@ -1,0 +1,250 @@
+"""Derivatives of periodic motion with a loose mass by keys of the scene, `observe.sensitivity`.
+
+They are those of closed forms, the limits of differences of runs, and what units, a mirror and other models demand.
+Environment: CLATTER, the program; CLATTER_SENSITIVITY, COUNT or COUNT:SEED of random scenes.
+"""
+
+import cmath
+import math
+import os
+import random
+import unittest
+
+import numpy as np
+
+from derivatives import OF_MACHINE, OF_SCENE, PERIODIC, RESULTS_IN_HOUSING, SETTLE, SIDES, STARTS, Family, OfScenes
+from derivatives import by_each, derivative, families
+from loose_mass_test import ATTRACTING, LooseMass, mirrored, symmetric
+from random_scenes import logarithmic
+from scene_runs import STEADY
+
+COUNT, _, SEED = os.environ.get("CLATTER_SENSITIVITY", "90").partition(":")
+COUNT, SEED = int(COUNT), int(SEED or 977)
+EXTREMA = ("x_min", "x_max", "y_min", "y_max", "z_min", "z_max")
+
+
+def carrying(draw):
+    """A scene that may chatter, be pressed for a while or for good, have one wall, or be shaken by its base."""
+    scene = {
+        "h": draw.choice([logarithmic(draw, 0.01, 0.4), 1.3]),
+        "stiffness": draw.choice([1.0, draw.uniform(0.5, 2)]),
+    }
+    scene |= {"f": draw.choice([-1, 1]) * draw.uniform(0.3, 1), "nu": draw.choice([1.0, draw.uniform(0.5, 1.7)])}
+    scene |= {"phase": draw.uniform(0, 6), "load": draw.uniform(-0.2, 0.2), "x0": 0.1, "v0": draw.uniform(-0.5, 0.5)}
+    scene |= {"loose_mass": logarithmic(draw, 1e-3, 2), "loose_R": draw.choice([0.0, draw.uniform(0.2, 0.9)])}
+    scene |= {"loose_load": draw.choice([0.0, draw.uniform(-0.1, 0.1), -0.4]), "loose_lower": -draw.uniform(0.2, 0.8)}
+    if scene["loose_load"] != -0.4 or draw.random() < 0.5:
+        scene["loose_upper"] = draw.uniform(0.2, 0.8)
+    if draw.random() < 0.35:
+        scene |= {"base_amplitude": draw.choice([0.0, 0.3]), "stop_phase": draw.choice([0.0, 1.1])}
+    return scene | {"loose_x0": 0.0, "loose_v0": draw.uniform(-0.5, 0.5)}
+
+
+def drawn(count, seed):
+    draw = random.Random(seed)
+    return [carrying(draw) for _ in range(count)]
+
+
+def values_of(scene):
+    return scene
+
+
+def machine_of(mass):
+    """A function that gives the values of [machine], in SI, of a scene whose numbers are metres and seconds."""
+
+    def machine(scene):
+        values = dict(scene)
+        values["damping"] = 2 * mass * values.pop("h")
+        for key, of_scene in (("force", "f"), ("stiffness", "stiffness"), ("load", "load"), ("loose_mass",) * 2):
+            values[key] = mass * values.pop(of_scene)
+        return {**values, "frequency": values.pop("nu") / (2 * math.pi)}
+
+    return machine
+
+
+def framed(scenes, n):
+    return 'frame = "absolute"\n' if "base_amplitude" in scenes[0] and n % 2 else ""
+
+
+class OfRandomScenes(OfScenes):
+    def test_the_units_of_length_time_and_mass_may_change(self):
+        for n, scenes in enumerate(families(drawn(COUNT, SEED), values_of)):
+            family = Family(self.program, scenes, of_section=values_of, observe=framed(scenes, n))
+            self.check_scaling(family, scenes, OF_SCENE, 0, RESULTS_IN_HOUSING)
+        for scenes in families(drawn(COUNT // 3, SEED + 1), values_of):
+            family = Family(self.program, scenes, "[machine]\nmass = 0.3\n", machine_of(0.3))
+            self.check_scaling(family, scenes, OF_MACHINE, 0.3, RESULTS_IN_HOUSING)
+        self.assertEqual(self.told(), "")
+        self.assertGreater(self.compared, 8 * COUNT)
+        self.assertEqual(self.unknown, [])
+
+    def test_they_are_the_limits_of_differences(self):
+        """By each key in turn, from runs that begin on the motion itself; to four orders in the step."""
+        sharp = {}
+        for n, scenes in enumerate(families(drawn(COUNT, SEED + 2), values_of)):
+            frame = framed(scenes, n)
+            family = Family(self.program, scenes, of_section=values_of, observe=frame)
+            found = [i for i in range(len(scenes)) if family.runs["status"][i] == PERIODIC]
+            starts = [started(scenes[i], family.runs, i, frame) for i in found]
+            keys = [family.keys[(n + j) % len(family.keys)] for j in range(len(found))]
+            steps = [1e-4 * max(0.05, abs(scene[key])) for scene, key in zip(starts, keys)]
+            sides = {side: [moved(s, key, side * d) for s, key, d in zip(starts, keys, steps)] for side in SIDES}
+            kept = [j for j in range(len(found)) if min(side[j]["loose_R"] for side in sides.values()) >= 0]
+            if not kept:
+                continue
+            runs = {
+                side: self.program.run([scenes[j] for j in kept], SETTLE, STEADY + frame, keys_of=values_of)
+                for side, scenes in sides.items()
+            }
+            for place, j in enumerate(kept):
+                i, key = found[j], keys[j]
+                compared = (family.runs, i, key, runs, place, steps[j], scenes[i], RESULTS_IN_HOUSING)
+                sharp[key] = sharp.get(key, 0) + self.compare_differences(*compared)
+        self.assertEqual(self.told(), "")
+        self.assertGreater(sum(sharp.values()), 2 * COUNT)
+        self.assertEqual([key for key, count in sharp.items() if count == 0], [])
+
+    def test_a_mirrored_scene_has_mirrored_ones(self):
+        scenes = [scene for scene in drawn(COUNT, SEED + 3) if "loose_upper" in scene]
+        for scenes in families(scenes, values_of):
+            others = [mirrored(scene) for scene in scenes]
+            one, other = (Family(self.program, s, of_section=values_of) for s in (scenes, others))
+            for i, scene in enumerate(scenes):
+                if one.runs["status"][i] == PERIODIC and np.isclose(one.runs["x_max"][i], -other.runs["x_min"][i]):
+                    for key in one.keys:
+                        self.check_mirrored(one.runs, other.runs, i, key, scene)
+        self.assertEqual(self.told(), "")
+        self.assertGreater(self.compared, 8 * COUNT)
+
+    def check_mirrored(self, one, other, i, key, scene):
+        walls = {"loose_lower": "loose_upper", "loose_upper": "loose_lower"}
+        negative = key in walls or key in ("f", "load", "loose_load", "base_amplitude")
+        ends = {name: name[:2] + {"min": "max", "max": "min"}[name[2:]] for name in EXTREMA}
+        for result in RESULTS_IN_HOUSING:
+            expected = np.atleast_1d(derivative(one, result, key)[i])[::-1]
+            sign = (-1 if negative else 1) * (-1 if result in ends else 1)
+            found = np.atleast_1d(derivative(other, ends.get(result, result), walls.get(key, key))[i])
+            for own, known in zip(found, sign * expected):
+                if not math.isnan(own) or not math.isnan(known):
+                    self.check(abs(own - known), 1e-6 * abs(known) + 1e-8, f"{result} by {key}, {scene}")
+
+
+def started(scene, runs, i, frame):
+    """The scene from the state in which its observed period begins, which is absolute if a frame is asked for."""
+    x, v, z, w = (float(runs[name][i, 0]) for name in "xvzw")
+    b, angle = scene.get("base_amplitude", 0.0) if frame else 0.0, scene["phase"] + scene.get("stop_phase", 0.0)
+    state = {"x0": x - b * math.sin(angle), "v0": v - b * scene["nu"] * math.cos(angle), "loose_x0": z, "loose_v0": w}
+    return {**scene, **state}
+
+
+def moved(scene, key, step):
+    """The scene with a key that has changed, its start on a wall that has moved over it."""
+    scene = {**scene, key: scene[key] + step}
+    low, high = scene["loose_lower"], scene.get("loose_upper", math.inf)
+    return {**scene, "loose_x0": min(max(scene["loose_x0"], low), high)}
+
+
+def slopes_of(function, values):
+    """The derivatives of a function by its arguments, by differences of the sixth order."""
+    slopes = {}
+    for key, value in values.items():
+        step = 2e-3 * max(abs(value), 0.1)
+        at = {n: np.array(function({**values, key: value + n * step})) for n in (-3, -2, -1, 1, 2, 3)}
+        ways = [(at[n] - at[-n]) / (2 * n * step) for n in (1, 2, 3)]
+        slopes[key] = 1.5 * ways[0] - 0.6 * ways[1] + 0.1 * ways[2]
+    return slopes
+
+
+class ClosedForms(LooseMass):
+    def derivatives(self, scene, keys=None, time=None, **observe):
+        keys = keys or [key for key in scene if key not in STARTS]
+        asked = {"sensitivity": ", ".join(keys), "extrema": True, "impacts": True, "word": True, **observe}
+        return self.observed(scene, {"max_periods": 4000, **(time or {})}, asked)
+
+    def test_symmetric_motion_with_two_impacts(self):
+        """Masri and Caughey 1966."""
+        for scene in (ATTRACTING, {**ATTRACTING, "h": 0.02, "f": 0.03, "nu": 1.02, "loose_R": 0.6}):
+            with self.subTest(scene=scene):
+                data, slopes = self.derivatives(scene), slopes_of(symmetric, scene)
+                eps, R, nu, w = (*(scene[key] for key in ("loose_mass", "loose_R", "nu")), symmetric(scene)[3])
+                np.testing.assert_allclose(data["impact_speed"], [w, w], rtol=1e-11)
+                for key, (x, _, _, speed, _) in slopes.items():
+                    told = {name: data[f"d_{name}_d_{key}"] for name in RESULTS_IN_HOUSING}
+                    size = max(abs(speed), 1e-3)
+                    np.testing.assert_allclose(told["impact_speed"], [speed, speed], atol=1e-8 * size, err_msg=key)
+                    gap = 1.0 if key == "loose_gap" else 0.0
+                    np.testing.assert_allclose([told["z_min"], told["z_max"]], [-gap, gap], atol=1e-15)
+                    np.testing.assert_allclose([told["y_min"], told["y_max"]], [-x - gap, x + gap], atol=1e-8)
+                    np.testing.assert_allclose(told["x_min"], -told["x_max"], atol=1e-8 * max(1, abs(told["x_max"])))
+                    lost = {"loose_mass": (1 - R * R) / (1 + eps) ** 2, "loose_R": -2 * R * eps / (1 + eps)}
+                    power = lost.get(key, 0.0) * w * w + 2 * eps / (1 + eps) * (1 - R * R) * w * speed
+                    power = power * nu / (2 * math.pi)
+                    power += eps / (1 + eps) * (1 - R * R) * w * w / (2 * math.pi) if key == "nu" else 0.0
+                    np.testing.assert_allclose(told["impact_power"], power, atol=1e-8, err_msg=key)
+                    period = -2 * math.pi / nu**2 if key == "nu" else 0.0
+                    np.testing.assert_allclose(told["period"], period, rtol=1e-14)
+
+    def test_pressed_for_good_both_masses_are_one(self):
+        scene = {"h": 0.1, "f": 0.05, "nu": 1.3, "load": 0.1, "stiffness": 1.2}
+        scene |= {"loose_mass": 0.3, "loose_lower": -0.7, "loose_R": 0.5, "loose_load": -0.4}
+
+        def ends(h, f, nu, load, stiffness, loose_mass, loose_load, **_):
+            size = f / cmath.sqrt((stiffness - (1 + loose_mass) * nu * nu) ** 2 + (2 * h * nu) ** 2)
+            middle = (load + loose_mass * loose_load) / stiffness
+            return middle - size, middle + size
+
+        data = self.derivatives(scene)
+        self.assertEqual(data["impact_word"], "(L)")
+        low, high = (by_each(lambda end=end, **values: ends(**values)[end], scene) for end in (0, 1))
+        for key in scene:
+            lower = 1.0 if key == "loose_lower" else 0.0
+            np.testing.assert_allclose(data[f"d_x_min_d_{key}"], low[key], rtol=1e-9, atol=1e-12, err_msg=key)
+            np.testing.assert_allclose(data[f"d_x_max_d_{key}"], high[key], rtol=1e-9, atol=1e-12, err_msg=key)
+            np.testing.assert_allclose(data[f"d_y_max_d_{key}"], high[key] + lower, rtol=1e-9, atol=1e-12)
+            self.assertEqual([data[f"d_z_min_d_{key}"], data[f"d_z_max_d_{key}"]], [lower, lower])
+            self.assertEqual(data[f"d_impact_power_d_{key}"], 0.0)
+            self.assertTrue(np.isnan(data[f"d_impact_speed_d_{key}"]).all())
+
+    def test_the_lightest_loose_mass_is_a_ball_between_shaken_walls(self):
+        """Its impacts change with its numbers as those of a ball between stops on a base do."""
+        scene = {"h": 0.05, "f": 0.5, "nu": 1.4, "loose_mass": 1e-12, "loose_lower": -0.6, "loose_upper": 0.5}
+        scene |= {"loose_R": 0.6, "loose_load": -0.02, "loose_v0": 0.4}
+        gain, lag = scene["f"] / math.hypot(1 - 1.4**2, 2 * 0.05 * 1.4), math.atan2(2 * 0.05 * 1.4, 1 - 1.4**2)
+        ball = {"stiffness": 0.0, "load": -0.02, "nu": 1.4, "base_amplitude": gain, "stop_phase": -lag}
+        ball |= {"stop_lower": -0.6, "stop_upper": 0.5, "R": 0.6, "v0": 0.4}
+        keys = {"loose_lower": "stop_lower", "loose_upper": "stop_upper", "loose_R": "R", "loose_load": "load"}
+        one, other = self.derivatives(scene, keys), self.derivatives(ball, [*keys.values(), "base_amplitude"])
+        self.assertEqual(one["impact_word"], other["impact_word"])
+        self.assertEqual(other["status"], PERIODIC)
+        for key, of_ball in keys.items():
+            for result, its in (("impact_speed", "impact_speed"), ("z_min", "x_min"), ("z_max", "x_max")):
+                expected = other[f"d_{its}_d_{of_ball}"]
+                np.testing.assert_allclose(one[f"d_{result}_d_{key}"], expected, rtol=1e-6, err_msg=key)
+        force = self.derivatives(scene, ["f"])["d_impact_speed_d_f"]
+        np.testing.assert_allclose(force, other["d_impact_speed_d_base_amplitude"] * gain / scene["f"], rtol=1e-6)
+
+    def test_none_without_an_impact_on_a_wall(self):
+        floating = {"h": 0.1, "f": 0.1, "nu": 0.7, "loose_mass": 0.1, "loose_gap": 2.0}
+        data = self.derivatives(floating)
+        self.assertEqual((data["status"], data["impact_word"]), (PERIODIC, "-"))
+        for key in floating:
+            for result in RESULTS_IN_HOUSING:
+                self.assertTrue(np.isnan(data[f"d_{result}_d_{key}"]).all())
+
+    def test_without_the_loose_mass_they_are_those_of_the_structure(self):
+        masses, scene = [0.0, 0.02], {key: value for key, value in ATTRACTING.items() if key != "loose_mass"}
+        keys = ["h", "f", "nu", "loose_gap", "loose_mass"]
+        asked = {"sensitivity": ", ".join(keys), "extrema": True}
+        swept = self.observed(scene, {"max_periods": 4000}, asked, sweep={"loose_mass": masses})
+        alone = {key: scene[key] for key in ("h", "f", "nu")}
+        alone = self.observed(alone, {"max_periods": 4000}, {**asked, "sensitivity": "h, f, nu"})
+        for key in ("h", "f", "nu"):
+            np.testing.assert_array_equal(swept[f"d_x_max_d_{key}"][0], alone[f"d_x_max_d_{key}"])
+            self.assertTrue(math.isnan(swept[f"d_y_max_d_{key}"][0]))
+        self.assertEqual(swept["d_x_max_d_loose_gap"][0], 0.0)
+        self.assertTrue(math.isnan(swept["d_x_max_d_loose_mass"][0]))
+        self.assertFalse(math.isnan(swept["d_x_max_d_loose_mass"][1]))
+
+
+if __name__ == "__main__":
+    unittest.main()
