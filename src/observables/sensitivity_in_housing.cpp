@@ -94,19 +94,16 @@ class HousingWalk {
     meet(stretch);
   }
 
-  /// Both masses as one, until the wall would have to pull (eq. 72).
+  /// Both masses as one. Where the wall would have to pull (eq. 72), x'' is the same before and after, so that a
+  /// release a little later changes nothing to first order: it counts as if it came at a phase of the force, like a
+  /// section.
   template <Effects of>
   void carry(std::size_t i, const motion::ArcConstants<Along, of>& constants) {
     const HousingStretch& stretch = course_[i];
     const motion::Arc<Along, of> arc(constants, start_of(stretch, constants), Along(stretch.anchor));
     const Motion end = arc.at(Along(stretch.length));
-    const bool is_released = course_[(i + 1) % course_.size()].held == Side::none;
-    const Along force = scene_.loose.load - end.a;
-    const Along late =
-        is_released ? with_slope_of(0, force / constants.jerk(end).value) : lateness_of_section(stretch.length);
-    if (is_released) closes_ = closes_ && std::abs(force.value) <= same * std::abs(free_.f.value);
     const State before = state_;
-    pass(stretch.length, end, late);
+    pass(stretch.length, end, lateness_of_section(stretch.length));
     state_.z = place(stretch.held), state_.w = Along(0);
     see(i, before, end, [&](const Along& s) {
       return Both{arc.at(s), {.offset = 0, .x = state_.z, .v = 0, .a = 0, .sine = 0, .cosine = 0}};

@@ -33,7 +33,7 @@ class Refusals(CommandLine):
         self.assert_told(across, ("loose_mass", "across"), "branch")
 
     def test_derivatives_by_keys_that_it_lacks(self):
-        without = "".join(line + "\n" for line in SCENE.splitlines() if "loose" not in line)
+        without = "".join(line + "\n" for line in SCENE.splitlines() if "loose" not in line) + "xs = 1\n"
         self.assert_told(f'{without}[observe]\nsensitivity = "loose_R"\n', ("'loose_R'", "without 'loose_mass'"))
         walls = SCENE.replace("loose_gap = 1.9", "loose_lower = -1.9")
         asked = '[observe]\nsensitivity = "loose_gap"\n'

@@ -115,6 +115,17 @@ class ClosedForms(RunTest):
                 self.assertTrue(np.isnan(file["d_impact_speed_d_" + key]).all())
                 self.assertEqual(file["d_impact_power_d_" + key][0], 0.0)
 
+    def test_what_begins_to_move_is_in_absolute_displacements(self):
+        scene = {"h": 0.05, "f": 1.0, "nu": 1.3, "R": 0.6, "stop_lower": -0.5, "stop_upper": 0.7, "stop_phase": 0.7}
+        for key in ("base_amplitude", "stop_amplitude"):
+            observe = {"frame": quoted("absolute"), "sensitivity": quoted(key), "extrema": True}
+            with h5py.File(
+                self.run_clatter(toml(scene=scene, sweep={key: [-1e-4, 0.0, 1e-4]}, observe=observe))
+            ) as file:
+                for end in ("x_min", "x_max"):
+                    less, _, more = file[end][()]
+                    np.testing.assert_allclose(file[f"d_{end}_d_{key}"][1], (more - less) / 2e-4, rtol=1e-6)
+
     def test_a_mass_that_stands_on_a_stop_moves_with_it(self):
         values = {"h": 0.1, "f": 0.5, "nu": 0.8, "load": 2.0, "stop_upper": 1.0, "R": 0.5}
         with self.run_at(values) as file:
