@@ -8,8 +8,8 @@
 namespace clatter::config {
 namespace {
 
-/// Whether a main mass that carries a loose one lacks what a parameter is of: stops of its own, and friction.
-bool is_without_loose_mass(Parameter parameter) {
+/// Whether a parameter is of what a main mass that carries a loose one lacks: stops of its own, and friction.
+bool conflicts_with_loose_mass(Parameter parameter) {
   const bool is_of_stops = parameter.is_of_both() || parameter.side() != Side::none || parameter == "stop_amplitude";
   return !parameter.is_loose() && (is_of_stops || parameter.role() == Role::friction);
 }
@@ -19,7 +19,7 @@ std::vector<std::string_view> keys_of_motion(const Settings& settings) {
   std::vector<std::string_view> names;
   const bool is_housed = has_loose_mass(settings);
   for (const Parameter parameter : all_parameters) {
-    const bool is_its = is_housed ? !is_without_loose_mass(parameter) : !parameter.is_loose();
+    const bool is_its = is_housed ? !conflicts_with_loose_mass(parameter) : !parameter.is_loose();
     if (parameter.is_in(settings.scene_section) && parameter.role() != Role::start && is_its &&
         !parameter.row().is_with_unit)
       names.push_back(parameter.key());
@@ -35,7 +35,7 @@ void check_name(const Settings& settings, const Setting& names, const std::strin
   const std::optional<Parameter> parameter = Parameter::of(name);
   if (parameter && parameter->role() == Role::start)
     fail(names.location, message + ", a start, which steady motion doesn't depend on; leave it out");
-  if (parameter && has_loose_mass(settings) && is_without_loose_mass(*parameter))
+  if (parameter && has_loose_mass(settings) && conflicts_with_loose_mass(*parameter))
     fail(names.location, message + ", which conflicts with 'loose_mass'; leave it out");
   if (parameter && !counterpart_of(name).empty())
     fail(names.location, message + ", no key of [" + section + "], which describes this scene; take " +
