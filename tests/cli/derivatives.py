@@ -123,8 +123,8 @@ class OfScenes(unittest.TestCase):
                         elif not math.isnan(own):
                             self.check(off, 1e-8 * scale + 1e-13, text)
 
-    def compare_differences(self, runs, i, key, sides, j, step, scene, results=RESULTS):
-        """How many derivatives the differences confirm to 1e-5 or better."""
+    def compare_differences(self, runs, i, key, sides, j, step, scene, results=RESULTS, part=0.05):
+        """How many derivatives the differences confirm to 1e-5 or better, within a part of those of two steps."""
         same = all(same_motion(side, j, runs, i) for side in sides.values())
         contraction = 1 - abs(complex(runs["multiplier_re"][i, 0], runs["multiplier_im"][i, 0]))
         if not same or not contraction > 1e-3:
@@ -139,7 +139,7 @@ class OfScenes(unittest.TestCase):
                     continue
                 if abs(one - other) > 1e-3 * abs(one) + rounding:
                     continue  # too long a step for motion so near a fold
-                allowed = 0.05 * abs(one - other) + rounding + 1e-12 / step
+                allowed = part * abs(one - other) + rounding + 1e-12 / step
                 self.check(abs(own - (4 * one - other) / 3), allowed, f"{result} by {key}, {scene}")
                 sharp += allowed < 1e-5 * abs(own)
         return sharp

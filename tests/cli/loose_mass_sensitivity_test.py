@@ -87,7 +87,7 @@ class OfRandomScenes(OfScenes):
             found = [i for i in range(len(scenes)) if family.runs["status"][i] == PERIODIC]
             starts = [started(scenes[i], family.runs, i, frame) for i in found]
             keys = [family.keys[(n + j) % len(family.keys)] for j in range(len(found))]
-            steps = [1e-4 * max(0.05, abs(scene[key])) for scene, key in zip(starts, keys)]
+            steps = [1e-4 * (abs(scene[key]) or 0.05) for scene, key in zip(starts, keys)]
             sides = {side: [moved(s, key, side * d) for s, key, d in zip(starts, keys, steps)] for side in SIDES}
             kept = [j for j in range(len(found)) if min(side[j]["loose_R"] for side in sides.values()) >= 0]
             if not kept:
@@ -98,8 +98,10 @@ class OfRandomScenes(OfScenes):
             }
             for place, j in enumerate(kept):
                 i, key = found[j], keys[j]
+                # if an impact with R = 0 just presses, the second derivative jumps, as the wall presses later or at once
+                part = 1.0 if scenes[i]["loose_R"] == 0 else 0.05
                 compared = (family.runs, i, key, runs, place, steps[j], scenes[i], RESULTS_IN_HOUSING)
-                sharp[key] = sharp.get(key, 0) + self.compare_differences(*compared)
+                sharp[key] = sharp.get(key, 0) + self.compare_differences(*compared, part=part)
         self.assertEqual(self.told(), "")
         self.assertGreater(sum(sharp.values()), 2 * COUNT)
         self.assertEqual([key for key, count in sharp.items() if count == 0], [])
