@@ -63,6 +63,8 @@ void check_walls_and_start(const Settings& settings, const AxisGroups& groups);
 
 /// Whether there is a loose mass.
 [[nodiscard]] bool has_loose_mass(const Settings& settings);
+/// Whether a parameter is of what a main mass that carries a loose one lacks: stops of its own, and friction.
+[[nodiscard]] bool conflicts_with_loose_mass(Parameter parameter);
 
 /// Whether there is dry friction at some point of the sweep.
 [[nodiscard]] bool has_friction_somewhere(const Settings& settings);

@@ -90,11 +90,7 @@ void check_followed(const Settings& settings) {
   const std::optional<Parameter> along = followed(settings);
   if (!along) return;
   const Setting &place = *settings.find("branch", "along"), *const range = settings.find("branch", "range");
-  const Role role = along->role();
-  const bool is_of_stops = role == Role::position || role == Role::restitution || role == Role::softness ||
-                           role == Role::stop_damping || role == Role::friction ||
-                           *along == Parameter("stop_amplitude");
-  if (is_of_stops && !along->is_loose())
+  if (conflicts_with_loose_mass(*along))
     refuse(place.location, "along = " + in_quotes(along->key()),
            "the main mass has neither stops nor friction; follow loose_gap, loose_lower, loose_upper or loose_R");
   const bool needs_positive = *along == loose_mass || *along == Parameter("stiffness");
@@ -132,6 +128,11 @@ void check_walls_and_start(const Settings& settings, const AxisGroups& groups) {
   const std::string rule = "a start between the walls, " + lower.name + " <= loose_x0 <= " + upper.name;
   compare(lower, start, is_not_above, rule);
   compare(start, upper, is_not_above, rule);
+}
+
+bool conflicts_with_loose_mass(Parameter parameter) {
+  const bool is_of_stops = parameter.is_of_both() || parameter.side() != Side::none || parameter == "stop_amplitude";
+  return !parameter.is_loose() && (is_of_stops || parameter.role() == Role::friction);
 }
 
 bool has_loose_mass(const Settings& settings) { return settings.given(loose_mass) != nullptr; }

@@ -8,12 +8,6 @@
 namespace clatter::config {
 namespace {
 
-/// Whether a parameter is of what a main mass that carries a loose one lacks: stops of its own, and friction.
-bool conflicts_with_loose_mass(Parameter parameter) {
-  const bool is_of_stops = parameter.is_of_both() || parameter.side() != Side::none || parameter == "stop_amplitude";
-  return !parameter.is_loose() && (is_of_stops || parameter.role() == Role::friction);
-}
-
 /// The keys by which steady motion has derivatives.
 std::vector<std::string_view> keys_of_motion(const Settings& settings) {
   std::vector<std::string_view> names;
