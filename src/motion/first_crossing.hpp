@@ -201,9 +201,42 @@ class CrossingSearch {
   int evaluations_ = 0;
 };
 
+/// How a search goes on at a margin of which a rule tells the value and the slope, and that is no gap to a stop.
+template <class Rule, class Number>
+class SlopedRule {
+ public:
+  [[nodiscard]] static bool vanishes() { return false; }
+  [[nodiscard]] static const Number& signed_change(std::size_t, const Number& change) { return change; }
+
+  /// A step a little longer than the margin would take to 0 at its present slope; at most half of it.
+  [[nodiscard]] Number next_step(std::size_t i, const Motion<Number>& here, const Number& step) const {
+    using std::clamp;
+    const Number left = rule().of(i, here), falls = -rule().slope(i, here);
+    if (!(left > 0 && falls > 0)) return step / 4;
+    return clamp(Number(2 * left / falls), Number(step / 16), Number(step / 2));
+  }
+
+  /// One Newton correction takes out the rounding that a long step leaves.
+  [[nodiscard]] Crossing<Number> refined(std::size_t i, const Motion<Number>&, Motion<Number> m, Number elapsed) const {
+    using std::abs;
+    const Number left = rule().of(i, m), rate = rule().slope(i, m);
+    if (rate < 0 && abs(left) <= -rate * abs(elapsed) * Number(1e-6)) {
+      const Number more = -left / rate;
+      elapsed += more, m.offset += m.v * more, m.x += m.v * more, m.v += m.a * more;
+    }
+    return rule().at(i, elapsed, m);
+  }
+  [[nodiscard]] Crossing<Number> at_horizon(const Number& horizon, const Motion<Number>& there) const {
+    return rule().at(Rule::count, horizon, there);
+  }
+
+ private:
+  [[nodiscard]] const Rule& rule() const { return static_cast<const Rule&>(*this); }
+};
+
 /// Margins of any kind. The sixth derivative of each is bounded by those of displacement and velocity.
 template <class Number, Effects E, std::size_t margins>
-class MarginRule {
+class MarginRule : public SlopedRule<MarginRule<Number, E, margins>, Number> {
  public:
   static constexpr std::size_t count = margins;
   static constexpr bool alike = false;
@@ -212,7 +245,6 @@ class MarginRule {
 
   [[nodiscard]] Number of(std::size_t i, const Motion<Number>& m) const { return margins_[i].of(m); }
   [[nodiscard]] Number slope(std::size_t i, const Motion<Number>& m) const { return margins_[i].slope(m); }
-  [[nodiscard]] static bool vanishes() { return false; }
 
   /// Whether no margin falls to 0 within a time, by the deviation of each from that of a mass at the equilibrium, if a
   /// spring holds it there.
@@ -255,31 +287,8 @@ class MarginRule {
     return hermite(HermiteData<Number>::over(
         step, {Number(0), margin.slope(here), bend(here), total, margin.slope(there), bend(there)}));
   }
-  [[nodiscard]] static const Number& signed_change(std::size_t, const Number& change) { return change; }
-
-  /// A step a little longer than the margin would take to 0 at its present slope; at most half of it.
-  [[nodiscard]] Number next_step(std::size_t i, const Motion<Number>& here, const Number& step) const {
-    using std::clamp;
-    const Number left = of(i, here), falls = -slope(i, here);
-    if (!(left > 0 && falls > 0)) return step / 4;
-    return clamp(Number(2 * left / falls), Number(step / 16), Number(step / 2));
-  }
-
-  /// One Newton correction takes out the rounding that a long step leaves.
-  [[nodiscard]] Crossing<Number> refined(std::size_t i, const Motion<Number>&, Motion<Number> m, Number elapsed) const {
-    using std::abs;
-    const Number left = of(i, m), rate = slope(i, m);
-    if (rate < 0 && abs(left) <= -rate * abs(elapsed) * Number(1e-6)) {
-      const Number more = -left / rate;
-      elapsed += more, m.offset += m.v * more, m.x += m.v * more, m.v += m.a * more;
-    }
-    return at(i, elapsed, m);
-  }
   [[nodiscard]] Crossing<Number> at(std::size_t i, const Number& elapsed, const Motion<Number>& m) const {
     return {i, Side::none, elapsed, m};
-  }
-  [[nodiscard]] Crossing<Number> at_horizon(const Number& horizon, const Motion<Number>& there) const {
-    return at(count, horizon, there);
   }
 
  private:

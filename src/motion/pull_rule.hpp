@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,7 +11,7 @@ namespace clatter::motion {
 /// of its own acceleration and x'' (eq. 72). It is a margin in the acceleration, so bounds go two derivatives higher
 /// than those of displacements.
 template <class Number, Effects E>
-class PullRule {
+class PullRule : public SlopedRule<PullRule<Number, E>, Number> {
  public:
   static constexpr std::size_t count = 1;
   static constexpr bool alike = true;
@@ -25,7 +24,6 @@ class PullRule {
 
   [[nodiscard]] Number of(std::size_t, const Motion<Number>& m) const { return sign_ * (load_ - m.a); }
   [[nodiscard]] Number slope(std::size_t, const Motion<Number>& m) const { return -sign_ * arc_.constants().jerk(m); }
-  [[nodiscard]] static bool vanishes() { return false; }
 
   /// Whether no acceleration that the mass can have lets the loose mass go.
   [[nodiscard]] bool stays_clear(const Motion<Number>& here, const Number& time) const {
@@ -50,31 +48,9 @@ class PullRule {
     return hermite(HermiteData<Number>::over(step, {Number(0), -sign_ * jerk0, -sign_ * snap0,
                                                     -sign_ * (there.a - here.a), -sign_ * jerk1, -sign_ * snap1}));
   }
-  [[nodiscard]] static const Number& signed_change(std::size_t, const Number& change) { return change; }
-
-  /// A step a little longer than the margin would take to 0 at its present slope; at most half of it.
-  [[nodiscard]] Number next_step(std::size_t i, const Motion<Number>& here, const Number& step) const {
-    using std::clamp;
-    const Number left = of(i, here), falls = -slope(i, here);
-    if (!(left > 0 && falls > 0)) return step / 4;
-    return clamp(Number(2 * left / falls), Number(step / 16), Number(step / 2));
-  }
-  /// One Newton correction takes out the rounding that a long step leaves.
-  [[nodiscard]] Crossing<Number> refined(std::size_t i, const Motion<Number>&, Motion<Number> m, Number elapsed) const {
-    using std::abs;
-    const Number left = of(i, m), rate = slope(i, m);
-    if (rate < 0 && abs(left) <= -rate * abs(elapsed) * Number(1e-6)) {
-      const Number more = -left / rate;
-      elapsed += more, m.offset += m.v * more, m.x += m.v * more, m.v += m.a * more;
-    }
-    return at(i, elapsed, m);
-  }
   [[nodiscard]] Crossing<Number> at(std::size_t i, const Number& elapsed, Motion<Number> m) const {
     if (i < count) m.a = load_;
     return {i, Side::none, elapsed, m};
-  }
-  [[nodiscard]] Crossing<Number> at_horizon(const Number& horizon, const Motion<Number>& there) const {
-    return at(count, horizon, there);
   }
 
  private:

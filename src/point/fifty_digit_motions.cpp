@@ -11,6 +11,7 @@
 #include "motion/tangent_map.hpp"
 #include "point/error_watch.hpp"
 #include "point/every_effect.hpp"
+#include "point/fifty_digit_periods.hpp"
 #include "steady/repeat.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
@@ -91,17 +92,11 @@ std::optional<FixedPoint> find_fixed_point(const Problem& problem, const motion:
   FixedPoint found;
   found.start.x = near.x, found.start.v = near.v;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    stepping::Exact<FiftyDigits, E> integrator(problem, limits_of(problem));
     Derivative derivative(problem.stops);
-    motion::State<FiftyDigits> state = found.start;
-    found.sections.clear();
-    for (std::int64_t section = 0; section < periods; ++section) {
-      if (stopped && stopped()) return std::nullopt;
-      found.sections.push_back(rounded(state));
-      if (advance_to_section(integrator, state, 0, derivative) != stepping::Outcome::completed) return std::nullopt;
-    }
-    const FiftyDigits dx = state.x - found.start.x, dv = state.v - found.start.v;
-    if (abs(dx) + abs(dv) <= FiftyDigits(1e-30) * (abs(state.x) + abs(state.v))) return found;
+    const auto state = run_periods<E>(problem, found, periods, stopped, derivative);
+    if (!state) return std::nullopt;
+    const FiftyDigits dx = state->x - found.start.x, dv = state->v - found.start.v;
+    if (abs(dx) + abs(dv) <= FiftyDigits(1e-30) * (abs(state->x) + abs(state->v))) return found;
     const motion::Jacobian<FiftyDigits> D = derivative.map();
     const FiftyDigits determinant = (1 - D[0]) * (1 - D[3]) - D[1] * D[2];
     found.start.x += ((1 - D[3]) * dx + D[1] * dv) / determinant;

@@ -5,10 +5,8 @@
 
 #include "motion/loose_tangent.hpp"
 #include "point/every_effect.hpp"
+#include "point/fifty_digit_periods.hpp"
 #include "point/fixed_point.hpp"
-#include "point/rounded.hpp"
-#include "stepping/exact.hpp"
-#include "stepping/run.hpp"
 
 namespace clatter::point {
 namespace {
@@ -95,16 +93,10 @@ std::optional<FixedPoint> find_fixed_point(const Problem& problem, const motion:
   found.start.x = near.x, found.start.v = near.v;
   found.start.loose = {near.loose.wall, near.loose.place, near.loose.speed, near.loose.pressed};
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    stepping::Exact<FiftyDigits, E> integrator(problem, limits_of(problem));
     stepping::NoObserver nobody;
-    motion::State<FiftyDigits> state = found.start;
-    found.sections.clear();
-    for (std::int64_t section = 0; section < periods; ++section) {
-      if (stopped && stopped()) return std::nullopt;
-      found.sections.push_back(rounded(state));
-      if (advance_to_section(integrator, state, 0, nobody) != stepping::Outcome::completed) return std::nullopt;
-    }
-    const auto begin = numbers_of(found.start, problem.loose), end = numbers_of(state, problem.loose);
+    const auto state = run_periods<E>(problem, found, periods, stopped, nobody);
+    if (!state) return std::nullopt;
+    const auto begin = numbers_of(found.start, problem.loose), end = numbers_of(*state, problem.loose);
     Four<double> off;
     double change = 0.0, size = 0.0;
     for (std::size_t i = 0; i < n; ++i) {

@@ -49,23 +49,16 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   [[nodiscard]] ArcToEvent<DenseArc> fly(const motion::State<double>& state, const motion::Motion<double>& start,
                                          double anchor, double horizon) {
     go_on(this->constants(), state, start, anchor);
-    ArcToEvent<DenseArc> flight{standing(this->constants(), state)};
+    ArcToEvent<DenseArc> flight{standing(this->constants(), state), {0, Side::none, 0.0, start}};
     if (const Side side = entered(this->stops(), anchor_, here_[0], here_[1]); side != Side::none) {
-      flight.crossing = {0, side, 0.0, start};
+      flight.crossing.side = side;
       flight.crossing.motion.x =
           motion::stop_at<double>(this->stops(), side).position;  // the step ended there, to rounding
       return flight;
     }
-    try {
-      flight.arc = step(this->constants(), state, start.a);
-    } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
-      flight.crossing = {0, Side::none, 0.0, start, 0, false};
-      return flight;
-    }
+    if (!take_step(flight, this->constants(), state, start.a)) return flight;
     motion::Crossing<double>& contact = flight.crossing = first_contact(flight.arc, this->stops(), horizon);
-    const double turns = state.phase_turns + contact.elapsed / this->period();
-    contact.resolved = this->finite(contact.motion.x) && (contact.side != Side::none || turns > state.phase_turns);
-    if (contact.side == Side::none && contact.elapsed < horizon) reached_ = {contact.motion.x, contact.motion.v, turns};
+    conclude(contact, contact.side != Side::none, state, horizon);
     return flight;
   }
 
@@ -82,20 +75,12 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       flight.crossing.margin = i;
       return flight;
     }
-    try {
-      flight.arc = step(constants, state, start.a);
-    } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
-      flight.crossing.resolved = false;
-      return flight;
-    }
+    if (!take_step(flight, constants, state, start.a)) return flight;
     const double moved = anchor_ - anchor;  // since the first step of the flight
     for (motion::Margin<double>& margin : margins) margin.constant += margin.place * moved;
     motion::Crossing<double>& crossing = flight.crossing = first_crossing(flight.arc, margins, horizon);
     crossing.motion.offset += moved;
-    const double turns = state.phase_turns + crossing.elapsed / this->period();
-    crossing.resolved = this->finite(crossing.motion.x) && (crossing.margin < count || turns > state.phase_turns);
-    if (crossing.margin == count && crossing.elapsed < horizon)
-      reached_ = {crossing.motion.x, crossing.motion.v, turns};
+    conclude(crossing, crossing.margin < count, state, horizon);
     return flight;
   }
 
@@ -146,16 +131,9 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       flight.crossing.margin = 0;
       return flight;
     }
-    try {
-      flight.arc = step(constants, state, start.a);
-    } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
-      flight.crossing.resolved = false;
-      return flight;
-    }
-    motion::Crossing<double>& crossing = flight.crossing = end_of_press(flight.arc, pressing, horizon);
-    const double turns = state.phase_turns + crossing.elapsed / this->period();
-    crossing.resolved = this->finite(crossing.motion.x) && (crossing.margin == 0 || turns > state.phase_turns);
-    if (crossing.margin == 1 && crossing.elapsed < horizon) reached_ = {crossing.motion.x, crossing.motion.v, turns};
+    if (!take_step(flight, constants, state, start.a)) return flight;
+    flight.crossing = end_of_press(flight.arc, pressing, horizon);
+    conclude(flight.crossing, flight.crossing.margin == 0, state, horizon);
     return flight;
   }
 
@@ -281,10 +259,23 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
             dense.over(0, dense.begin[1], dense.end[1]),
             dense.over(1, a, dense.a_end)};
   }
+  /// Makes the next step of a flight, with acceleration a at its beginning; false if no step is short enough.
   template <Effects Of>
-  [[nodiscard]] motion::PolynomialArc<Of> step(const motion::ArcConstants<double, Of>& constants,
-                                               const motion::State<double>& state, double a) {
-    return arc_of(constants, state, dense_step(constants, 0.0), a);
+  [[nodiscard]] bool take_step(ArcToEvent<motion::PolynomialArc<Of>>& flight,
+                               const motion::ArcConstants<double, Of>& constants, const motion::State<double>& state,
+                               double a) {
+    try {
+      flight.arc = arc_of(constants, state, dense_step(constants, 0.0), a);
+    } catch (const boost::numeric::odeint::odeint_error&) {
+      flight.crossing.resolved = false;
+    }
+    return flight.crossing.resolved;
+  }
+  /// Ends a flight at an event, which it may begin with, or goes on where the step ends.
+  void conclude(motion::Crossing<double>& crossing, bool is_event, const motion::State<double>& state, double horizon) {
+    const double turns = state.phase_turns + crossing.elapsed / this->period();
+    crossing.resolved = this->finite(crossing.motion.x) && (is_event || turns > state.phase_turns);
+    if (!is_event && crossing.elapsed < horizon) reached_ = {crossing.motion.x, crossing.motion.v, turns};
   }
 
   double tolerance_;

@@ -15,15 +15,13 @@ namespace {
 
 const AccuracyOptions once{.rounds = 1};
 
-/// Impacts, chatter on the lower wall and a time for which that presses, in each period.
 point::Problem pressed_scene() {
-  point::Problem scene = support::loose_scene(0.5, 0.1, 0.4, 0.6, 1, 0.3);
-  scene.loose.load = -0.3, scene.loose.lower = -0.1;
+  point::Problem scene = support::pressed_scene();
   scene.time.window = 8;
   return scene;
 }
 point::Problem damper() {
-  point::Problem scene = support::loose_scene(0.02, 0.005, 0.01, 1, 0.4, 0.8);
+  point::Problem scene = support::impact_damper();
   scene.loose.velocity = 0.3, scene.time.window = 16;  // from rest it strikes no wall for so long
   return scene;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "stepping/dormand_prince.hpp"
@@ -18,8 +17,6 @@ namespace {
 using accuracy::Event;
 using accuracy::RunRecord;
 using support::loose_scene;
-
-constexpr double pi_ = std::numbers::pi;
 
 RunRecord run_of(point::Problem scene, double tolerance, double duration) {
   scene.integration.method = Method::dopri5, scene.integration.tolerance = tolerance;
@@ -48,14 +45,13 @@ TEST(DormandPrinceLooseMass, of_random_scenes_is_that_of_fifty_digits) {
     expect_the_motion_of_fifty_digits(support::random_loose_scene(index), 12, "scene " + std::to_string(index));
 }
 
-/// Masri & Caughey 1966: two impacts a period, with this z'.
 TEST(DormandPrinceLooseMass, an_impact_damper_settles_on_the_closed_form_to_the_tolerance) {
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
-    const RunRecord record = run_of(loose_scene(0.02, 0.005, 0.01, 1, 0.4, 0.8), tolerance, 3000 * 2 * pi_);
+    const RunRecord record = run_of(support::impact_damper(), tolerance, 3000 * 2 * pi<double>());
     ASSERT_EQ(record.outcome, Outcome::completed);
     ASSERT_GT(record.events.size(), 5000u);
     // over the 1/h = 200 of tau in which errors fade there are some thousand steps
-    EXPECT_NEAR(record.events.back().speed(), 0.418893828273064, 2000 * tolerance * 0.01) << tolerance;
+    EXPECT_NEAR(record.events.back().speed(), support::impact_damper_speed, 2000 * tolerance * 0.01) << tolerance;
   }
 }
 
@@ -93,15 +89,9 @@ TEST(DormandPrinceLooseMass, bounces_like_a_ball_on_a_housing_that_stands_until_
 
 /// The wall lets go where both masses as one have x'' = g.
 TEST(DormandPrinceLooseMass, a_wall_lets_go_where_it_would_have_to_pull) {
-  point::Problem scene = loose_scene(0.5, 0.1, 0.4, 0.6, 1, 0.3);
-  scene.loose.load = -0.3, scene.loose.lower = -0.1;
-  const auto rests_of = [](const RunRecord& record) {
-    std::vector<Event> rests;
-    for (const Event& event : accuracy::with_rests_joined(record.events))
-      if (event.kind == Event::Kind::rest) rests.push_back(event);
-    return rests;
-  };
-  const auto exact = rests_of(accuracy::record_of(scene, 60)), found = rests_of(run_of(scene, 1e-11, 60));
+  const point::Problem scene = support::pressed_scene();
+  const auto exact = support::rests_of(accuracy::record_of(scene, 60)),
+             found = support::rests_of(run_of(scene, 1e-11, 60));
   ASSERT_GT(exact.size(), 3u);
   ASSERT_EQ(found.size(), exact.size());
   for (std::size_t i = 0; i < exact.size(); ++i) {

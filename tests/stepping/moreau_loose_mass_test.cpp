@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "stepping/moreau.hpp"
@@ -18,8 +17,6 @@ using accuracy::Event;
 using accuracy::RunRecord;
 using support::loose_scene;
 
-constexpr double pi_ = std::numbers::pi;
-
 point::Problem with_steps(point::Problem scene, double steps, double theta = 0.5) {
   scene.integration.method = Method::moreau, scene.integration.step = 1 / steps, scene.integration.theta = theta;
   return scene;
@@ -28,15 +25,14 @@ RunRecord run_of(const point::Problem& scene, double steps, double duration, dou
   return support::record_by<Moreau>(with_steps(scene, steps, theta), duration);
 }
 
-/// Masri & Caughey 1966: two impacts a period, with this z'.
 TEST(MoreauLooseMass, an_impact_damper_settles_on_the_closed_form_to_the_step) {
   std::vector<double> steps, errors;
   for (const double count : {1000.0, 3000.0, 10000.0, 30000.0}) {
-    const RunRecord record = run_of(loose_scene(0.02, 0.005, 0.01, 1, 0.4, 0.8), count, 300 * 2 * pi_);
+    const RunRecord record = run_of(support::impact_damper(), count, 300 * 2 * pi<double>());
     ASSERT_GT(record.events.size(), 500u);
     double error = 0;
     for (std::size_t i = record.events.size() - 20; i < record.events.size(); ++i)
-      error = std::max(error, std::abs(record.events[i].speed() - 0.418893828273064));
+      error = std::max(error, std::abs(record.events[i].speed() - support::impact_damper_speed));
     steps.push_back(1 / count), errors.push_back(error);
   }
   EXPECT_LT(errors.back(), 1e-3);
@@ -78,18 +74,11 @@ TEST(MoreauLooseMass, impacts_keep_the_momentum) {
 }
 
 TEST(MoreauLooseMass, is_pressed_and_let_go_to_the_step) {
-  point::Problem scene = loose_scene(0.5, 0.1, 0.4, 0.6, 1, 0.3);
-  scene.loose.load = -0.3, scene.loose.lower = -0.1;
-  const auto rests_of = [](const RunRecord& record) {
-    std::vector<Event> rests;
-    for (const Event& event : accuracy::with_rests_joined(record.events))
-      if (event.kind == Event::Kind::rest && event.length > 0.05) rests.push_back(event);
-    return rests;
-  };
-  const auto exact = rests_of(accuracy::record_of(scene, 60));
+  const point::Problem scene = support::pressed_scene();
+  const auto exact = support::rests_of(accuracy::record_of(scene, 60), 0.05);
   ASSERT_GT(exact.size(), 3u);
   for (const double theta : {0.5, 1.0}) {
-    const auto found = rests_of(run_of(scene, 1e5, 60, theta));
+    const auto found = support::rests_of(run_of(scene, 1e5, 60, theta), 0.05);
     ASSERT_EQ(found.size(), exact.size());
     for (std::size_t i = 0; i < exact.size(); ++i) {
       EXPECT_EQ(found[i].side, exact[i].side);

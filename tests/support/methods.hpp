@@ -59,6 +59,15 @@ accuracy::RunRecord record_by(const point::Problem& scene, double duration) {
   return record;
 }
 
+/// The rests of a run that last longer than a time; of those that sections cut, the whole.
+inline std::vector<accuracy::Event> rests_of(const accuracy::RunRecord& record, double longer_than = 0.0) {
+  std::vector<accuracy::Event> rests = accuracy::with_rests_joined(record.events);
+  std::erase_if(rests, [&](const accuracy::Event& event) {
+    return event.kind != accuracy::Event::Kind::rest || event.length <= longer_than;
+  });
+  return rests;
+}
+
 /// The order of y in x: slope of the straight line through (log x, log y), by least squares.
 inline double order_of(const std::vector<double>& x, const std::vector<double>& y) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;

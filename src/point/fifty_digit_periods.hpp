@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "point/fixed_point.hpp"
+#include "point/rounded.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
+
+namespace clatter::point {
+
+/// Runs so many forcing periods from the start of a fixed point, and keeps the sections on the way; the state at the
+/// end, or nothing if the run doesn't complete, or `stopped` ends it.
+template <Effects E, class Observer>
+[[nodiscard]] std::optional<motion::State<FiftyDigits>> run_periods(const Problem& problem, FixedPoint& found,
+                                                                    std::int64_t periods,
+                                                                    const std::function<bool()>& stopped,
+                                                                    Observer& observer) {
+  stepping::Exact<FiftyDigits, E> integrator(problem, limits_of(problem));
+  motion::State<FiftyDigits> state = found.start;
+  found.sections.clear();
+  for (std::int64_t section = 0; section < periods; ++section) {
+    if (stopped && stopped()) return std::nullopt;
+    found.sections.push_back(rounded(state));
+    if (advance_to_section(integrator, state, 0, observer) != stepping::Outcome::completed) return std::nullopt;
+  }
+  return state;
+}
+
+}  // namespace clatter::point
