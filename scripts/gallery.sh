@@ -63,6 +63,7 @@ draw energy_sink --only x_max,impacts_per_period --size 7x3.5
   --set observe.impact_log=true --set observe.stability=false -o "$work/energy_sink_motion.h5" -q
 "$source_dir/scripts/plot.py" "$work/energy_sink_motion.h5" --only trajectory --size 7x5 \
   --title 'Both masses of an energy sink' --format svg -o "$out"
+draw energy_sink_basin --only attractor --size 6x3.8
 draw soft_history --only trajectory --size 7x5
 draw basins --only attractor --size 6x3.8
 draw zones --size 8x4.2
