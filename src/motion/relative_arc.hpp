@@ -50,6 +50,13 @@ class RelativeArc {
     return seen(main_.near(main, d), m.offset + ((m.v + m.a * d / 2) * d - bend.x), m.v + m.a * d - bend.v);
   }
 
+  /// The same motion from a time s after the start on.
+  [[nodiscard]] RelativeArc from(const Number& s) const {
+    const Motion<Number> m = at(s);
+    return {
+        Arc<Number, E>(constants(), main_.at(s), main_.anchor()), {from_.origin, m.offset, m.v, velocity(s)}, load_};
+  }
+
   /// y' a time s after the start.
   [[nodiscard]] Number velocity(const Number& s) const { return from_.v + load_ * s; }
   /// y at the start.

@@ -12,6 +12,7 @@
 #include "observables/multipliers.hpp"
 #include "observables/rough_grazes.hpp"
 #include "observables/stability.hpp"
+#include "observables/wall_grazes.hpp"
 
 namespace clatter::observables {
 
@@ -21,8 +22,9 @@ class Stability::Observer {
 
   Observer(const Settings&, const ObservedSpan& span) : Observer(span.scene.stops, span.uncertainty) {
     if (has_friction(span.scene.friction)) graze_matters_ = false, rough_.emplace(span.scene, span.uncertainty);
-    if (has_loose_mass(span.scene.loose))
-      graze_matters_ = false, loose_.emplace(span.scene.oscillator, span.scene.loose), rounding_ = span.uncertainty;
+    if (!has_loose_mass(span.scene.loose)) return;
+    graze_matters_ = false, loose_.emplace(span.scene.oscillator, span.scene.loose);
+    if (span.periodic) walls_.emplace(span.scene.loose, span.uncertainty);
   }
 
   /// `rounding` bounds the errors of displacements and velocities.
@@ -57,23 +59,25 @@ class Stability::Observer {
     if (rough_) rough_->impact(impact);
   }
   void touch(const motion::Touch& touch) { tangent_.touch(touch); }
-  /// A loose mass that strikes a wall so slowly that it would turn back within rounding of it.
   void strike(const motion::Strike& strike) {
     loose_->strike(strike);
-    slow_ = slow_ || strike.before * strike.before <= 2 * std::abs(turning_) * rounding_;
+    if (walls_) walls_->strike(strike);
   }
   template <class A>
-  void in_housing(const A& arc, double, double length) {
-    turning_ = arc.at(length).a;
+  void in_housing(const A& arc, double begin, double length) {
+    if (walls_) walls_->in_housing(arc, begin, length);
   }
-  /// Its chatter, whose impacts are as slow as they like, is forgotten.
-  void press(const motion::Press& press) { loose_->press(press), slow_ = false; }
+  void press(const motion::Press& press) {
+    loose_->press(press);
+    if (walls_) walls_->press();
+  }
 
   /// True if motions that differ from this one by rounding meet other stops. After a rest no difference is left; and
   /// motion by general methods isn't known to rounding. A graze of a soft stop changes little, and beside one those of
   /// a rigid stop aren't told. Under dry friction the least speeds and distances tell them.
   [[nodiscard]] bool grazes() const {
-    return !rests_ && ((graze_matters_ && !nearby_.holds()) || (rough_ && rough_->found()) || slow_);
+    return !rests_ &&
+           ((graze_matters_ && !nearby_.holds()) || (rough_ && rough_->found()) || (walls_ && walls_->found()));
   }
 
   /// Ends the observed time, one period. Unforced motion (`autonomous`) is periodic only when it loses nothing; a shift
@@ -137,8 +141,7 @@ class Stability::Observer {
   motion::Neighbourhood nearby_;
   std::optional<RoughGrazes> rough_{};           ///< under dry friction, in place of `nearby_`
   std::optional<motion::LooseTangent> loose_{};  ///< with a loose mass, in place of `tangent_`
-  double rounding_ = 0.0, turning_ = 0.0;        ///< with a loose mass: of displacements; z'' at the end of its flight
-  bool slow_ = false;                            ///< it has struck a wall within rounding
+  std::optional<WallGrazes> walls_{};            ///< of its walls, in place of `nearby_`; if the motion is periodic
   bool graze_matters_, rests_ = false;
   Complex first_{no_value, no_value}, second_{no_value, no_value};
   double exponent_ = no_value;

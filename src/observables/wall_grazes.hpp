@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/polynomial_in_housing.hpp"
+#include "motion/relative_arc.hpp"
+#include "scene/scene.hpp"
+
+namespace clatter::observables {
+
+/// Tells whether rounding decides if a loose mass meets a wall: it strikes the wall so slowly that it would turn back
+/// within rounding of it, or it does turn back there.
+class WallGrazes {
+ public:
+  /// `rounding` bounds the errors of displacements and velocities.
+  WallGrazes(const LooseMass& loose, double rounding)
+      : inner_{.lower = loose.lower + rounding, .upper = loose.upper - rounding}, rounding_(rounding) {}
+
+  /// Looks for a contact with walls that are moved inwards by rounding, clear of the walls that the flight leaves and
+  /// meets. A flight that doesn't come clear of them ends in a slow impact.
+  template <Effects E>
+  void in_housing(const motion::RelativeArc<double, E>& arc, double, double length) {
+    const motion::Motion<double> first = arc.start(), last = arc.at(length);
+    turning_ = last.a;
+    const double begin = time_near(first, arc.constants().jerk(arc.main_at(first)), 1),
+                 end = length - time_near(last, arc.constants().jerk(arc.main_at(last)), -1);
+    if (!(begin < end && is_clear(arc.at(end)))) return;
+    const motion::RelativeArc<double, E> middle = arc.from(begin);
+    if (is_clear(middle.start()) && motion::next_contact(middle, inner_, end - begin).side != Side::none)
+      grazes_ = true;
+  }
+  /// Motion by a general method isn't known to rounding.
+  template <Effects E>
+  void in_housing(const motion::PolynomialInHousing<E>& arc, double, double length) {
+    turning_ = arc.at(length).a;
+  }
+  void strike(const motion::Strike& strike) {
+    if (strike.before * strike.before <= 2 * std::abs(turning_) * rounding_) grazes_ = true;
+  }
+  /// Chatter, whose impacts are as slow as they like, is forgotten.
+  void press() { grazes_ = false; }
+
+  [[nodiscard]] bool found() const { return grazes_; }
+
+ private:
+  [[nodiscard]] bool is_clear(const motion::Motion<double>& m) const {
+    return m.x > inner_.lower && m.x < inner_.upper;
+  }
+  /// How long the flight is near a wall, forwards or backwards in time: until its speed, its acceleration or its rate
+  /// has taken it twice as far as rounding.
+  [[nodiscard]] double time_near(const motion::Motion<double>& m, double jerk, double forwards) const {
+    if (is_clear(m)) return 0.0;
+    const double inwards = m.x >= inner_.upper ? -1 : 1;
+    const auto lead = [&](double rate) { return std::max(0.0, inwards * rate); };
+    return std::min({2 * rounding_ / lead(forwards * m.v), std::sqrt(4 * rounding_ / lead(m.a)),
+                     std::cbrt(12 * rounding_ / lead(-forwards * jerk))});
+  }
+
+  Stops inner_;
+  double rounding_;
+  double turning_ = 0.0;  ///< z'' at the end of the flight
+  bool grazes_ = false;
+};
+
+}  // namespace clatter::observables
