@@ -34,6 +34,12 @@ double way_of(const point::Problem& scene) {
   return begun * std::min({time, 1 / o.damping, begun / (2 * scene.friction.kinetic)}) + forced * time;
 }
 
+/// Impacts in a time under an acceleration `pull`, between which v passes in 2v/pull, while v falls as e^(-fading t).
+double bounces_in(double time, double pull, double speed, double fading) {
+  const double stretched = fading > 0 ? std::expm1(fading * time) / fading : time;
+  return pull * stretched / (2 * speed);
+}
+
 /// Impacts on a stop that an acceleration `pull` presses the mass onto: it returns after 2v/pull, and damping
 /// takes 2h v^2/3 of its energy in a unit of time, so that v falls as e^(-2ht/3). Friction takes mu/pull of the
 /// speed in each flight, mu/2 in a unit of time, and all of its digits in some 36 pull/mu flights.
@@ -42,11 +48,27 @@ double bounces_on(const point::Problem& scene, double position, double pull) {
   const double time = longest_time(scene), fading = 2 * scene.oscillator.damping / 3;
   const double height = std::abs(scene.start.displacement - position);
   const double speed = std::hypot(scene.start.velocity, std::sqrt(2 * pull * height));
-  const double stretched = fading > 0 ? std::expm1(fading * time) / fading : time;
   const double friction = scene.friction.kinetic, spent = friction * time / (2 * speed);  // share of the speed
-  const double impacts = pull * stretched / (2 * speed) * (spent > 0 ? -std::log1p(-std::min(spent, 1.0)) / spent : 1);
+  const double impacts =
+      bounces_in(time, pull, speed, fading) * (spent > 0 ? -std::log1p(-std::min(spent, 1.0)) / spent : 1);
   if (friction > 0) return std::min(36 * pull / friction, impacts);  // also if its start isn't known
   return std::isnan(impacts) ? scene.time.max_impacts : impacts;     // its start isn't known, or it stays on the stop
+}
+
+/// Impacts on a wall that the load of a loose mass presses it onto for good, since the main mass with it never
+/// accelerates as much. In flights without its weight the main mass accelerates eps times as much the other way. It has
+/// eps/(1 + eps) of the relative velocity w, of which damping takes its share: w falls as e^(-2ht/3 eps/(1 + eps)).
+double bounces_in_housing(const point::Problem& scene) {
+  const LooseMass& loose = scene.loose;
+  const double both = 1 + loose.ratio, wall = loose.load < 0 ? loose.lower : loose.upper;
+  if (loose.restitution < 1 || loose.load == 0 || std::isinf(wall)) return 0;
+  Oscillator o = scene.oscillator;
+  o.damping /= both, o.forcing /= both, o.stiffness /= both;
+  const double shaken = o.forcing == 0 ? 0.0 : o.frequency * o.frequency * steady_response(o).amplitude;
+  if (!(shaken < std::abs(loose.load))) return 0;
+  const double pull = both * std::abs(loose.load), height = std::abs(loose.place - wall);
+  const double speed = std::hypot(loose.velocity, std::sqrt(2 * pull * height));
+  return bounces_in(longest_time(scene), pull, speed, 2 * scene.oscillator.damping / 3 * loose.ratio / both);
 }
 
 /// One digit of a number above 1: 30, 2000, 1e+08.
@@ -85,6 +107,7 @@ struct Costliest {
 }  // namespace
 
 double impacts_without_loss(const point::Problem& scene) {
+  if (has_loose_mass(scene.loose)) return std::min(scene.time.max_impacts, bounces_in_housing(scene));
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
   if (!(stops.restitution_lower >= 1 || stops.restitution_upper >= 1)) return 0;
@@ -118,8 +141,10 @@ std::optional<std::string> warning_of_costliest_point(const sweep::Sweep& sweep,
     bounces.see(impacts_without_loss(scene), point), periods.see(steps_of_transient(scene), point);
   }
   constexpr double evaluations = 2;  // an impact
-  if (const auto told = bounces.told(sweep, evaluations, "impacts"))
-    return *told + ": with R = 1 nothing ends its bouncing; lower time.max_impacts, or take R below 1";
+  if (const auto told = bounces.told(sweep, evaluations, "impacts")) {
+    const std::string R = has_loose_mass(problem_at(sweep, bounces.point).loose) ? "loose_R" : "R";
+    return *told + ": with " + R + " = 1 nothing ends its bouncing; lower time.max_impacts, or take " + R + " below 1";
+  }
   if (const auto told = periods.told(sweep, 1, "steps"))
     return *told + ", since its time is long beside its periods; lower time.duration, or look for a slip in " +
            (sweep.problem.is_si ? "mass, stiffness or frequency" : "nu or stiffness");

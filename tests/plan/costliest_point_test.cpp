@@ -80,6 +80,32 @@ TEST(CostliestPoint, of_a_fast_one_costs_its_path_in_distances_between_the_stops
   EXPECT_FALSE(warns(steady)) << "in closed form";
 }
 
+/// Damping takes the relative velocity of a loose mass through the share of it that the main mass has. The swing of the
+/// main mass adds to that velocity, so the number holds to a factor of 2.
+TEST(CostliestPoint, of_a_loose_mass_on_a_wall_without_loss_takes_the_impacts_that_it_has_time_for) {
+  point::ThreadScratch scratch;
+  for (const double eps : {0.1, 1.0})
+    for (const double h : {0.0, 0.1, 0.3})
+      for (const double sign : {1.0, -1.0}) {
+        point::Problem scene = transient({h, 0.01, 1.3, 0.0}, 1.0, 0.0);
+        scene.stops = {}, scene.time.duration = 40;
+        scene.loose = {.ratio = eps, .lower = -0.1, .upper = 0.1, .restitution = 1, .load = -0.5 * sign};
+        (sign > 0 ? scene.loose.upper : scene.loose.lower) = sign * HUGE_VAL;
+        EXPECT_NEAR(std::log(impacts_without_loss(scene) / run_point(scene, scratch).impacts), 0, std::log(2.0))
+            << eps << ' ' << h;
+        EXPECT_FALSE(warns(scene));
+        if (h * eps < 0.1) continue;
+        scene.time.duration = 1000;
+        EXPECT_TRUE(warns(scene)) << eps << ' ' << h;
+        const std::string warning = *warning_of_costliest_point(sweep::sweep_of(scene, {}));
+        EXPECT_NE(warning.find("with loose_R = 1 nothing ends its bouncing"), std::string::npos) << warning;
+        scene.loose.restitution = 0.99;
+        EXPECT_FALSE(warns(scene));
+        scene.loose.restitution = 1, scene.oscillator.forcing = 3;  // which throws it off
+        EXPECT_FALSE(warns(scene));
+      }
+}
+
 TEST(CostliestPoint, of_a_sweep_is_named_in_its_plan) {
   const sweep::Sweep sweep =
       sweep::sweep_of(transient({0.05, 0.3, 1.4, 2.0}, 0.5, 0.0), {{Parameter("R"), {0.5, 0.9, 1.0}}});
