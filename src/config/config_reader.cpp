@@ -102,8 +102,8 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   sweep.problem.observe.of_soft_stops =
       is_soft_somewhere(settings, Side::lower) || is_soft_somewhere(settings, Side::upper);
   auto& observed = sweep.problem.observe;
-  observed.loose_extrema = observed.loose_trajectory = observed.loose_section = observed.loose_stability =
-      observed.loose_attractor = observed.loose_sensitivity = has_loose_mass(settings);
+  observed.loose_extrema = observed.loose_impacts = observed.loose_trajectory = observed.loose_section =
+      observed.loose_stability = observed.loose_attractor = observed.loose_sensitivity = has_loose_mass(settings);
   sweep.problem.observe.of_friction = sweep.problem.observe.of_sticks = has_friction_somewhere(settings);
   if (sweep.follow) sweep.direction = direction_of(settings);
   for (const std::vector<std::size_t>& group : groups) {

@@ -20,6 +20,7 @@ struct Impacts {
     bool impacts = false;
     bool of_soft_stops = false;  ///< with it: what only soft stops have
     bool of_sticks = false;      ///< with it: the share of time in which dry friction holds the mass
+    bool loose_impacts = false;  ///< they are those of a loose mass, on walls in place of stops
   };
   struct Values {
     std::array<double, 2> impacts_per_period{no_value, no_value};  ///< [stop]
@@ -29,7 +30,6 @@ struct Impacts {
     double stick_fraction = no_value;
     std::array<double, 2> contact_fraction{no_value, no_value}, contact_force_max{no_value, no_value};
   };
-  static constexpr std::string_view not_hit = "the stop isn't hit";
   static constexpr std::tuple fields{
       Field{Key{"observe", "impacts", Kind::flag, "false", "true",
                 "for each stop: impacts per period, velocity before and after the "
@@ -41,16 +41,19 @@ struct Impacts {
   [[nodiscard]] static std::string description(const Settings&) { return "impacts"; }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings) {
     const Coordinate stop = stop_coordinate();
+    const bool loose = settings.loose_impacts;
+    const std::string_view not_hit = loose ? "the wall isn't hit" : "the stop isn't hit";
+    const char* const rest = loose ? "share of time pressed on the wall" : "share of time at rest on the stop";
     std::vector<Column<Values>> all{
         pair("impacts_per_period", "impacts per forcing period", stop, &Values::impacts_per_period),
         missing_if(not_hit, in_relative_frame(pair("v_before", "velocity before the first impact", stop,
                                                    &Values::v_before, Quantity::velocity))),
-        missing_if("the stop isn't hit, or a transient ends in the first contact with a soft one",
+        missing_if(loose ? not_hit : "the stop isn't hit, or a transient ends in the first contact with a soft one",
                    in_relative_frame(
                        pair("v_after", "velocity after the first impact", stop, &Values::v_after, Quantity::velocity))),
         missing_if(not_hit, in_relative_frame(pair("impact_speed", "speed of the fastest impact", stop,
                                                    &Values::impact_speed, Quantity::velocity))),
-        pair("rest_fraction", "share of time at rest on the stop", stop, &Values::rest_fraction)};
+        pair("rest_fraction", rest, stop, &Values::rest_fraction)};
     if (settings.of_sticks)
       all.push_back(scalar("stick_fraction", "share of time in which dry friction holds the mass away from rigid stops",
                            &Values::stick_fraction));
