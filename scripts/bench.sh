@@ -109,6 +109,7 @@ measure rates
 measure growth --benchmark_filter="$growth_filter"
 measure figures
 measure solvers --benchmark_repetitions="$solver_repetitions" --benchmark_filter="$solver_filter"
+measure housing
 echo "Running whole processes"
 /usr/bin/python3 scripts/bench_processes.py --out "$results/processes.json" "${processes[@]}"
 rm -f "$results/proofs.json"

@@ -161,6 +161,21 @@ def show_solvers(run):
     )
 
 
+def show_housing(run):
+    rows = []
+    for name, entry in run.medians.items():
+        if name.startswith("sincos"):
+            continue
+        clatter = run.medians[name.split(",")[0] + ", clatter/scalar"]["time"]
+        numbers = f"{entry['time'] / clatter:.3g}", f"{entry['impacts']:.3g}", f"{entry['error']:.1g}"
+        rows.append((name, time(entry["time"]), *numbers))
+    show(
+        "Scenes with a loose mass, one thread; error of the state at the end over the free path",
+        ("scene, method", "period", "÷ clatter", "impacts a period", "error"),
+        rows,
+    )
+
+
 def show_processes(content, unit):
     rows = [
         (
@@ -290,12 +305,13 @@ def main():
         help="of the JSON files (default: build/release/bench)",
     )
     folder = parser.parse_args().folder
-    runs = {name: Run(folder / f"{name}.json") for name in ("rates", "growth", "figures", "solvers")}
+    runs = {name: Run(folder / f"{name}.json") for name in ("rates", "growth", "figures", "solvers", "housing")}
     processes = json.loads((folder / "processes.json").read_text())
     show_units(runs)
     show_rates(runs["rates"])
     show_growth(runs["growth"])
     show_solvers(runs["solvers"])
+    show_housing(runs["housing"])
     show_processes(processes, runs["figures"].unit())
     proofs = folder / "proofs.json"
     if proofs.exists():

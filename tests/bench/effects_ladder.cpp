@@ -57,6 +57,14 @@ Rung rough(const Oscillator& oscillator, const Stops& between, double kinetic) {
   return with_friction;
 }
 
+/// A scene with a loose mass, that lacks nothing.
+Rung carrying(const Oscillator& oscillator, const LooseMass& loose) {
+  Rung with_loose_mass = rung("", same, oscillator, {});
+  with_loose_mass.scene.loose = loose;
+  with_loose_mass.kept_in = required_effects(with_loose_mass.scene);
+  return with_loose_mass;
+}
+
 constexpr Oscillator near_resonance(double h) { return {.damping = h, .forcing = 1, .frequency = 1.03, .load = 0.02}; }
 constexpr Oscillator driven(double h) { return {.damping = h, .forcing = 1, .frequency = 0.7, .load = 0.02}; }
 constexpr Oscillator driven_without_load(double h) { return {.damping = h, .forcing = 1, .frequency = 0.7}; }
@@ -95,7 +103,9 @@ std::vector<Rung> rungs() {
           rung("forcing", forcing, free_motion(heavy, push), pressed, {}, until_rest),
           rung("both stops", stops_and_rest, driven(heavy), far),
           rough(driven(light), wide, 0.1),
-          rung("friction", friction, driven(light), wide)};
+          rung("friction", friction, driven(light), wide),
+          carrying(driven(light), {.ratio = 0.05, .lower = -0.5, .upper = 0.5, .restitution = 0.7}),
+          carrying(driven(light), {.ratio = 0.5, .lower = -0.1, .upper = 1, .restitution = 0.3, .load = -0.3})};
 }
 
 /// A scene's effects in words, separated by commas.
@@ -109,11 +119,13 @@ std::string words(const Effects& effects) {
   if (effects.dissipation) text += ", R < 1";
   if (effects.rest) text += ", rest";
   if (effects.friction) text += ", friction";
+  if (effects.loose) text += ", loose mass";
   return text.empty() ? "none" : text.substr(2);
 }
 
 struct CountRests : stepping::NoObserver {
   void rest(const motion::Rest& stretch) { rests += stretch.held ? 1 : 0; }
+  void press(const motion::Press&) { ++rests; }
   double rests = 0;
 };
 
@@ -124,6 +136,7 @@ stepping::Exact<double, set> run_once(const Rung& rung, const Stops& in_reach, O
   stepping::Exact<double, set> integrator(rung.scene, in_reach);
   motion::State<double> now;
   now.x = rung.scene.start.displacement, now.v = rung.scene.start.velocity;
+  if constexpr (set.loose) now.loose = motion::loose_start<double>(rung.scene);
   if (run_for(integrator, now, rung.periods, observer) != stepping::Outcome::completed)
     state.SkipWithError("the run did not complete");
   benchmark::DoNotOptimize(now);
