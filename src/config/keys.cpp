@@ -57,8 +57,7 @@ Key key_of(Parameter parameter, bool is_si) {
 const std::vector<std::string_view> followed_names = [] {
   std::vector<std::string_view> keys;
   for (const Parameter parameter : all_parameters)
-    if (parameter.role() != Role::start && !parameter.row().is_with_unit)
-      keys.push_back(parameter.key());
+    if (parameter.role() != Role::start && !parameter.row().is_with_unit) keys.push_back(parameter.key());
   return keys;
 }();
 

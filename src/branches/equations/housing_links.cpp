@@ -86,7 +86,7 @@ struct LeastChange {
 };
 LeastChange least_change(const std::vector<HousingLink>& links, int multiplier, double speed_unit) {
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(changes_of<double>(links, multiplier, speed_unit),
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+                                           Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Index last = svd.singularValues().size() - 1;
   return {svd.singularValues()[last], svd.matrixU().col(last), svd.matrixV().col(last)};
 }
