@@ -39,6 +39,10 @@ class Ball {
   [[nodiscard]] static bool read(const std::string& text, Ball& number) {
     return arb_set_str(number.x_, text.c_str(), bits) == 0 && arb_is_finite(number.x_) != 0;
   }
+  [[nodiscard]] static Ball copied(const arb_t number) {
+    return made([&](arb_t z) { arb_set(z, number); });
+  }
+  void copy_to(arb_t number) const { arb_set(number, x_); }
   [[nodiscard]] static Ball pi() {
     return made([](arb_t z) { arb_const_pi(z, bits); });
   }

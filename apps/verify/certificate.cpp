@@ -1,106 +1,11 @@
 #include "certificate.hpp"
 
-#include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
 #include <utility>
+
+#include "field.hpp"
 
 namespace verify {
 namespace {
-
-using Json = nlohmann::json;
-
-/// The beginning of a text of a file, without control characters.
-std::string shown(const std::string& text) {
-  const std::string escaped = Json(text.substr(0, 40)).dump(-1, ' ', true, Json::error_handler_t::replace);
-  std::string quoted(escaped);
-  quoted.front() = quoted.back() = '\'';
-  return quoted;
-}
-
-/// A value of a certificate and its place in it.
-class Field {
- public:
-  Field(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
-
-  [[noreturn]] void refuse(const std::string& found, const std::string& way_out) const {
-    throw FormatError(path_ + ": " + found + "; " + way_out);
-  }
-  [[nodiscard]] std::optional<Field> find(const std::string& name) const {
-    require_object();
-    const auto member = json_.find(name);
-    if (member == json_.end()) return std::nullopt;
-    return Field(*member, path_.empty() ? name : path_ + "." + name);
-  }
-  [[nodiscard]] Field get(const std::string& name) const {
-    if (const auto member = find(name)) return *member;
-    Field(json_, path_.empty() ? name : path_ + "." + name).refuse("is missing", "add it");
-  }
-  void require_object() const {
-    if (!json_.is_object()) refuse("is no object", "write {...}");
-  }
-  [[nodiscard]] std::vector<Field> items() const {
-    if (!json_.is_array()) refuse("is no array", "write [...]");
-    std::vector<Field> list;
-    for (std::size_t i = 0; i < json_.size(); ++i) list.emplace_back(json_[i], path_ + "[" + std::to_string(i) + "]");
-    return list;
-  }
-  [[nodiscard]] std::string text() const {
-    if (!json_.is_string()) refuse("is no text", "write it in quotes");
-    return json_.get<std::string>();
-  }
-  [[nodiscard]] bool flag() const {
-    if (!json_.is_boolean()) refuse("is neither true nor false", "write one of them");
-    return json_.get<bool>();
-  }
-  [[nodiscard]] Number number() const {
-    if (json_.is_number()) {
-      const double value = json_.get<double>();
-      if (!std::isfinite(value)) refuse("is beyond double", "write a decimal number in quotes");
-      return Number(value);
-    }
-    if (!json_.is_string()) refuse("is no number", "write a number, or a decimal number in quotes");
-    const std::string text = json_.get<std::string>();
-    Ball ball;
-    if (text.find_first_not_of("0123456789+-.eE") != std::string::npos || text.size() > 400 || !Ball::read(text, ball))
-      refuse(shown(text) + " is no decimal number", "write e.g. \"0.1\"");
-    if (!(abs(ball) < Ball(1e300)) || !(abs(ball) > Ball(1e-300) || ball.is_zero()))
-      refuse(shown(text) + " is beyond 1e-300 to 1e300", "change the units");
-    return Number(text);
-  }
-  [[nodiscard]] Number number_from(double least, double most, bool with_least = true) const {
-    const Number value = number();
-    const Ball ball = value.ball();
-    if (ball < Ball(least) || (!with_least && !(ball > Ball(least))) || ball > Ball(most))
-      refuse("is " + value.text(), std::string("it must be ") + (with_least ? "at least " : "above ") +
-                                       Number(least).text() +
-                                       (std::isfinite(most) ? " and at most " + Number(most).text() : ""));
-    return value;
-  }
-  [[nodiscard]] Claimed claimed() const {
-    const auto pair = items();
-    if (pair.size() != 2) refuse("has " + std::to_string(pair.size()) + " items", "write [value, error]");
-    return {pair[0].number(), pair[1].number_from(0, infinity)};
-  }
-  [[nodiscard]] long count(long most) const {
-    if (!json_.is_number_integer()) refuse("is no whole number", "write 1 or more");
-    const auto value = json_.get<std::int64_t>();
-    if (value < 1 || value > most) refuse("is out of range", "write 1 to " + std::to_string(most));
-    return static_cast<long>(value);
-  }
-  [[nodiscard]] Side side() const {
-    const std::string name = text();
-    if (name != "lower" && name != "upper") refuse("is " + shown(name), "write lower or upper");
-    return name == "upper" ? Side::upper : Side::lower;
-  }
-  [[nodiscard]] std::string dump() const { return json_.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
- private:
-  const Json& json_;
-  std::string path_;
-};
 
 std::optional<Certificate::StopNumbers> stop_of(const Field& scene, const char* name) {
   const auto field = scene.find(name);
@@ -117,6 +22,23 @@ std::optional<Certificate::StopNumbers> stop_of(const Field& scene, const char* 
   return stop;
 }
 
+/// A loose mass and the walls of its housing, in place of stops and friction.
+Certificate::LooseNumbers loose_of(const Field& scene, const Field& field) {
+  for (const char* const name : {"lower", "upper", "friction", "friction_static"})
+    if (const auto other = scene.find(name)) other->refuse("is given beside a loose mass", "leave it out");
+  Certificate::LooseNumbers loose{field.get("mass").number_from(0, Field::infinity, false),
+                                  field.get("R").number_from(0, 1),
+                                  field.get("load").number(),
+                                  {}};
+  for (const Side side : {Side::lower, Side::upper})
+    if (const auto wall = field.find(name_of(side))) loose.walls[index_of(side)] = wall->get("position").number();
+  const auto& [lower, upper] = loose.walls;
+  if (!lower && !upper) field.refuse("has no walls", "give lower, upper or both");
+  if (lower && upper && !(lower->ball() < upper->ball()))
+    field.refuse("has its lower wall above the upper one", "exchange them");
+  return loose;
+}
+
 Certificate::SceneNumbers scene_of(const Field& field) {
   Certificate::SceneNumbers scene{
       field.get("h").number_from(0, Field::infinity),         field.get("k").number(),    field.get("f").number(),
@@ -131,20 +53,21 @@ Certificate::SceneNumbers scene_of(const Field& field) {
   }
   if (scene.stops[0] && scene.stops[1] && !(scene.stops[0]->position.ball() < scene.stops[1]->position.ball()))
     field.refuse("has its lower stop above the upper one", "exchange them");
+  if (const auto loose = field.find("loose")) scene.loose = loose_of(field, *loose);
   return scene;
 }
 
-ClaimedEvent event_of(const Field& field) {
+ClaimedEvent event_of(const Field& field, bool has_loose_mass) {
   ClaimedEvent event;
   const Field kind = field.get("event");
   const std::string name = kind.text();
   bool known = false;
   for (const Kind one : {Kind::impact, Kind::touch, Kind::separation, Kind::renewal, Kind::graze, Kind::chatter,
-                         Kind::rest, Kind::reversal, Kind::stick})
+                         Kind::rest, Kind::reversal, Kind::stick, Kind::press})
     if (name == name_of(one)) event.kind = one, known = true;
   if (!known)
     kind.refuse("is " + shown(name),
-                "write impact, touch, separation, renewal, graze, chatter, rest, reversal or stick");
+                "write impact, touch, separation, renewal, graze, chatter, rest, reversal, stick or press");
   event.time = field.get("time").claimed();
   if (is_of_friction(event.kind)) {
     event.x = field.get("x").claimed();
@@ -152,17 +75,31 @@ ClaimedEvent event_of(const Field& field) {
     return event;
   }
   event.side = field.get("stop").side();
-  if (event.kind == Kind::chatter || event.kind == Kind::rest)
+  if (event.kind == Kind::chatter || holds(event.kind))
     event.until = field.get("until").claimed();
   else if (event.kind != Kind::graze)
-    event.v = field.get("v").claimed();
+    event.v = field.get(has_loose_mass ? "w" : "v").claimed();
   return event;
+}
+
+/// With a loose mass each event must be one on a wall that there is.
+void require_walls(const Field& field, const Certificate& certificate) {
+  const auto& events = certificate.events;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const Kind kind = events[i].kind;
+    if (kind != Kind::impact && kind != Kind::chatter && kind != Kind::press)
+      field.items()[i].refuse(std::string("is a ") + name_of(kind) + " beside a loose mass",
+                              "write impact, chatter or press");
+    if (!certificate.scene.loose->walls[index_of(events[i].side)])
+      field.items()[i].refuse("is an event of a wall", "the housing has none there");
+  }
 }
 
 /// Each event must be one of a stop that there is, of its kind.
 void require_stops(const Field& field, const Certificate& certificate) {
   const auto& events = certificate.events;
   for (std::size_t i = 0; i < events.size(); ++i) {
+    if (events[i].kind == Kind::press) field.items()[i].refuse("is a press", "the scene has no loose mass; give it");
     if (is_of_friction(events[i].kind)) {
       if (!certificate.scene.friction_static.ball().is_zero()) continue;
       field.items()[i].refuse("is an event of dry friction", "the scene has none; give its friction");
@@ -209,13 +146,17 @@ void read_periodic(const Field& root, Certificate& certificate) {
     root.get("claim").refuse("periodic motion without a force", "claim a transient");
   const auto multipliers = root.find("multipliers");
   if (!multipliers) return;
-  const auto pair = multipliers->items();
-  if (pair.size() != 2) multipliers->refuse("has not two items", "write [[re, im, error], [re, im, error]]");
+  const auto list = multipliers->items();
+  if (certificate.scene.loose && list.size() != 4)
+    multipliers->refuse("has not four items", "write [re, im, error] for each");
+  if (!certificate.scene.loose && list.size() != 2)
+    multipliers->refuse("has not two items", "write [[re, im, error], [re, im, error]]");
   certificate.multipliers.emplace();
-  for (std::size_t i = 0; i < 2; ++i) {
-    const auto parts = pair[i].items();
-    if (parts.size() != 3) pair[i].refuse("has not three items", "write [re, im, error]");
-    (*certificate.multipliers)[i] = {parts[0].number(), parts[1].number(), parts[2].number_from(0, Field::infinity)};
+  for (const Field& item : list) {
+    const auto parts = item.items();
+    if (parts.size() != 3) item.refuse("has not three items", "write [re, im, error]");
+    certificate.multipliers->push_back(
+        {parts[0].number(), parts[1].number(), parts[2].number_from(0, Field::infinity)});
   }
 }
 
@@ -258,18 +199,40 @@ Certificate::Special special_of(const Field& root, const Certificate::SceneNumbe
   return {special_kind_of(root.get("kind")), root.get("parameter").claimed(), slopes_of(root.get("slopes"), scene)};
 }
 
+/// The place of a loose mass at the start: z and z', or the wall that presses it.
+template <class Read>
+void read_loose_start(const Field& start, const Read& read, Certificate& certificate) {
+  const auto pressed = start.find("pressed");
+  if (!pressed) {
+    certificate.start_z = read("z"), certificate.start_w = read("w");
+    return;
+  }
+  certificate.pressed = pressed->side();
+  if (!certificate.scene.loose->walls[index_of(*certificate.pressed)])
+    pressed->refuse("is a wall that isn't there", "give the housing that wall, or z and w in place of pressed");
+}
+
 void read_start(const Field& start, Certificate& certificate) {
   certificate.start_time = start.get("time").number();
+  const auto read = [&](const char* name) {
+    const Field field = start.get(name);
+    return certificate.periodic ? field.claimed() : Claimed{field.number(), Number()};
+  };
   if (const auto released = start.find("released")) {
+    if (certificate.scene.loose) released->refuse("is given beside a loose mass", "give x and v");
     certificate.released = released->side();
     if (certificate.scene.f.ball().is_zero()) released->refuse("needs a force", "give x and v");
-  } else {
-    const auto read = [&](const char* name) {
-      const Field field = start.get(name);
-      return certificate.periodic ? field.claimed() : Claimed{field.number(), Number()};
-    };
-    certificate.start_x = read("x"), certificate.start_v = read("v");
+    return;
   }
+  certificate.start_x = read("x"), certificate.start_v = read("v");
+  if (certificate.scene.loose) read_loose_start(start, read, certificate);
+}
+
+void read_end(const Field& end, Certificate& certificate) {
+  certificate.end = {end.get("time").number(), end.get("x").claimed(), end.get("v").claimed(), {}, {}};
+  if (certificate.scene.loose) certificate.end->z = end.get("z").claimed(), certificate.end->w = end.get("w").claimed();
+  if (!(certificate.end->time.ball() > certificate.start_time.ball()))
+    end.refuse("is not after the start", "give a later time");
 }
 
 std::string place_of(const Field& root) {
@@ -315,20 +278,21 @@ Certificate read_certificate(const std::string& line) {
   if (kind != "periodic" && kind != "transient" && kind != "special")
     claim.refuse("is " + shown(kind), "write transient, periodic or special");
   certificate.periodic = kind != "transient";
+  if (kind == "special" && certificate.scene.loose)
+    claim.refuse("is special beside a loose mass", "claim transient or periodic motion");
   if (kind == "special") certificate.special = special_of(root, certificate.scene);
   if (certificate.periodic) read_periodic(root, certificate);
   read_start(root.get("start"), certificate);
   const Field events = root.get("events");
-  for (const Field& event : events.items()) certificate.events.push_back(event_of(event));
-  require_stops(events, certificate);
+  for (const Field& event : events.items())
+    certificate.events.push_back(event_of(event, certificate.scene.loose.has_value()));
+  if (certificate.scene.loose)
+    require_walls(events, certificate);
+  else
+    require_stops(events, certificate);
   if (const auto x = root.find("x_min")) certificate.x_min = x->claimed();
   if (const auto x = root.find("x_max")) certificate.x_max = x->claimed();
-  if (!certificate.periodic) {
-    const Field end = root.get("end");
-    certificate.end = {end.get("time").number(), end.get("x").claimed(), end.get("v").claimed()};
-    if (!(certificate.end->time.ball() > certificate.start_time.ball()))
-      end.refuse("is not after the start", "give a later time");
-  }
+  if (!certificate.periodic) read_end(root.get("end"), certificate);
   return certificate;
 }
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "motion.hpp"
+#include "followed.hpp"
 
 namespace verify {
 
@@ -42,8 +42,8 @@ enum class SpecialKind { fold, flip, symmetry_breaking, graze, impact_speed, imp
 struct ClaimedEvent {
   Kind kind = Kind::impact;
   Side side = Side::lower;
-  Claimed time, v;               ///< v: not of graze, chatter and rest
-  std::optional<Claimed> until;  ///< of chatter, rest and stick
+  Claimed time, v;               ///< v: not of graze, chatter, rest and press; of a loose mass z'
+  std::optional<Claimed> until;  ///< of chatter, rest, stick and press
   std::optional<Claimed> x{};    ///< of reversal and stick
 };
 
@@ -54,10 +54,15 @@ struct Certificate {
     bool soft = false;
     Number R, stiffness, damping;
   };
+  struct LooseNumbers {
+    Number mass, R, load;
+    std::array<std::optional<Number>, 2> walls;
+  };
   struct SceneNumbers {
     Number h, k, f, nu, load, phase;
     std::array<std::optional<StopNumbers>, 2> stops;
     Number friction{}, friction_static{};
+    std::optional<LooseNumbers> loose{};
   };
   /// A special point of a family of scenes.
   struct Special {
@@ -68,6 +73,7 @@ struct Certificate {
   struct End {
     Number time;
     Claimed x, v;
+    Claimed z, w;  ///< of a loose mass
   };
 
   std::string place;  ///< name, point and parameters, for messages
@@ -76,14 +82,16 @@ struct Certificate {
   long periods = 0;
   Number start_time;
   Claimed start_x, start_v;  ///< without an error in a transient
+  Claimed start_z, start_w;  ///< likewise, of a loose mass
   std::optional<Side> released;
+  std::optional<Side> pressed;  ///< the wall that presses a loose mass at the start
   std::vector<ClaimedEvent> events;
   std::optional<Claimed> x_min, x_max;
   std::optional<End> end;
   std::optional<std::string> word;
   std::optional<bool> symmetric;
   std::optional<Special> special;
-  std::optional<std::array<std::array<Number, 3>, 2>> multipliers;  ///< real part, imaginary part, error
+  std::optional<std::vector<std::array<Number, 3>>> multipliers;  ///< real part, imaginary part, error
 
   [[nodiscard]] Scene scene_in_balls() const;
   /// The scene of a special point at some values of the parameter, less the claimed one.

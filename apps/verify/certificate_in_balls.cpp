@@ -54,7 +54,13 @@ BasicScene<T> scene_made(const Certificate::SceneNumbers& shape, const Of& of) {
 }  // namespace
 
 Scene Certificate::scene_in_balls() const {
-  return scene_made<Ball>(scene, [&](const auto& number_in) { return number_in(scene).ball(); });
+  Scene made = scene_made<Ball>(scene, [&](const auto& number_in) { return number_in(scene).ball(); });
+  if (!scene.loose) return made;
+  LooseMass loose{scene.loose->mass.ball(), scene.loose->R.ball(), scene.loose->load.ball(), {}};
+  for (std::size_t i = 0; i < 2; ++i)
+    if (scene.loose->walls[i]) loose.walls[i] = scene.loose->walls[i]->ball();
+  made.loose = loose;
+  return made;
 }
 
 MovingScene Certificate::moving_scene(const Ball& offset) const {
@@ -66,8 +72,14 @@ MovingScene Certificate::moving_scene(const Ball& offset) const {
 }
 
 Start Certificate::start_in_balls() const {
-  return {start_time.ball(), start_x.value.ball(), start_v.value.ball(), released.has_value(),
-          released.value_or(Side::lower)};
+  return {start_time.ball(),
+          start_x.value.ball(),
+          start_v.value.ball(),
+          released.has_value(),
+          released.value_or(Side::lower),
+          start_z.value.ball(),
+          start_w.value.ball(),
+          pressed};
 }
 
 }  // namespace verify

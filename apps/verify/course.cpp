@@ -48,7 +48,7 @@ Event Course::next_for(const ClaimedEvent& claim) {
   if (claim.kind == Kind::chatter)
     return motion_.finish_chatter(accuracy_of(*claim.until), latest(*claim.until), height_of(certificate_));
   if (claim.kind == Kind::graze) return motion_.graze(claim.side, claim.time.value.ball(), end_);
-  if (claim.kind == Kind::rest) {
+  if (holds(claim.kind)) {
     if (!motion_.is_resting()) {  // after an impact of an inelastic stop
       const Event event = motion_.finish_chatter(accuracy_of(claim.time), latest(claim.time), height_of(certificate_));
       if (event.kind != Kind::chatter) return event;
@@ -68,8 +68,10 @@ void Course::run() {
   }
   if (motion_.is_sticking() && !claims.empty() && claims.back().kind == Kind::stick) return;
   if (motion_.is_resting()) {
-    if (!claims.empty() && claims.back().kind == Kind::rest) return;
-    throw Refuted("after the last event: a stop holds the mass, and no rest is claimed");
+    if (!claims.empty() && holds(claims.back().kind)) return;
+    throw Refuted(certificate_.scene.loose
+                      ? "after the last event: a wall presses the loose mass, and no press is claimed"
+                      : "after the last event: a stop holds the mass, and no rest is claimed");
   }
   if (ends_with_release()) return;
   const Event event = motion_.next(end_);
@@ -90,11 +92,11 @@ void compare_events(const Certificate& certificate, const std::vector<Event>& ev
     if (claim.until)
       report.compare(name + ", until", events[i].until, *claim.until);
     else if (claim.kind != Kind::graze && claim.kind != Kind::reversal)
-      report.compare(name + ", v", events[i].v, claim.v);
+      report.compare(name + (certificate.scene.loose ? ", w" : ", v"), events[i].v, claim.v);
   }
 }
 
-void compare_extrema(const Certificate& certificate, const Motion& motion, const std::vector<Event>& events,
+void compare_extrema(const Certificate& certificate, const Followed& motion, const std::vector<Event>& events,
                      const Scene& scene, Report& report) {
   for (const Side side : {Side::lower, Side::upper}) {
     const auto& claim = side == Side::upper ? certificate.x_max : certificate.x_min;

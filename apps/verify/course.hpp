@@ -10,7 +10,7 @@ namespace verify {
 /// Follows a motion along the claimed events.
 class Course {
  public:
-  Course(const Certificate& certificate, Motion& motion, const Ball& end)
+  Course(const Certificate& certificate, Followed& motion, const Ball& end)
       : certificate_(certificate), motion_(motion), end_(end) {}
 
   /// Throws Refuted if the motion takes another course, and Undecided if that can't be told.
@@ -25,7 +25,7 @@ class Course {
   [[nodiscard]] Event next_for(const ClaimedEvent& claim);
 
   const Certificate& certificate_;
-  Motion& motion_;
+  Followed& motion_;
   Ball end_;
   std::vector<Event> events_{};
 };
@@ -33,7 +33,7 @@ class Course {
 /// Compares the events that were found with those that are claimed.
 void compare_events(const Certificate& certificate, const std::vector<Event>& events, Report& report);
 /// Compares the extrema of the displacement on the way of a motion.
-void compare_extrema(const Certificate& certificate, const Motion& motion, const std::vector<Event>& events,
+void compare_extrema(const Certificate& certificate, const Followed& motion, const std::vector<Event>& events,
                      const Scene& scene, Report& report);
 
 }  // namespace verify

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "course.hpp"
+#include "motion.hpp"
 
 namespace verify {
 
@@ -30,7 +31,7 @@ class Curve {
   /// A period, or a half, of all motions that start within a place.
   struct Passage {
     std::vector<Event> events;
-    std::vector<Motion::Stretch> stretches;
+    std::vector<Stretch> stretches;
     Ball x, v;                         ///< at the end, mirrored if half a period is kept, less those at the start
     Matrix derivative;                 ///< of the mapped state by the state
     Place row_x, row_v;                ///< derivatives of `x` and `v` by the place

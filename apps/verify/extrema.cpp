@@ -3,6 +3,8 @@
 #include <optional>
 #include <queue>
 
+#include "first_crossing.hpp"
+
 namespace verify {
 namespace {
 
@@ -32,7 +34,7 @@ void add_turn(const Flow::Flight& flight, const Margin& x, const Ball& from, con
 }
 
 /// Looks into the parts of a stretch, that with the largest upper bound first.
-void search(const Motion::Stretch& stretch, const Margin& x, Largest& largest) {
+void search(const Stretch& stretch, const Margin& x, Largest& largest) {
   struct Part {
     Ball from, to, range;
     int depth;
@@ -68,13 +70,13 @@ void search(const Motion::Stretch& stretch, const Margin& x, Largest& largest) {
 
 }  // namespace
 
-Ball extremum(std::span<const Motion::Stretch> stretches, std::span<const Ball> places, int sign) {
+Ball extremum(std::span<const Stretch> stretches, std::span<const Ball> places, int sign) {
   const Margin x{sign, Ball(0), Ball(0), 0};
   Largest largest;
   for (const Ball& place : places) largest.add(x.of(place, Ball(0)));
-  for (const Motion::Stretch& stretch : stretches)
+  for (const Stretch& stretch : stretches)
     for (const Ball& end : {Ball(0), stretch.length}) largest.add(x.of(stretch.flight.at(end).x, Ball(0)));
-  for (const Motion::Stretch& stretch : stretches) search(stretch, x, largest);
+  for (const Stretch& stretch : stretches) search(stretch, x, largest);
   return Ball(sign) * largest.value();
 }
 

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loose_flight.hpp"
+
 namespace verify {
 
-Piece::Piece(const Flow::Flight& flight, const Ball& from, const Ball& to)
-    : middle_(flight.at(((from + to) / Ball(2)).middle())), all_(flight.at(Ball::hull(from, to))) {
+void Piece::set_steps(const Ball& from, const Ball& to) {
   step_ = Ball::hull(from, to) - ((from + to) / Ball(2)).middle();
   const Ball half = abs(step_).upper(), half_of_square = half * half / Ball(2);
   half_square_ = Ball::hull(Ball(0), half_of_square);
@@ -34,7 +35,8 @@ namespace {
 /// What a piece of a flight does to a margin that is positive where it begins, or vanishes there.
 enum class Course { clear, crosses, unknown };
 
-Course course_of(const Piece& piece, const Flow::Flight& flight, const Margin& margin, bool begins, const Ball& to) {
+template <class Flight>
+Course course_of(const Piece& piece, const Flight& flight, const Margin& margin, bool begins, const Ball& to) {
   if (begins && margin.vanishing > 0)
     return piece.range(margin, margin.vanishing).is_positive() ? Course::clear : Course::unknown;
   if (piece.range(margin, 0).is_positive()) return Course::clear;
@@ -47,8 +49,9 @@ Course course_of(const Piece& piece, const Flow::Flight& flight, const Margin& m
 }
 
 /// A step for the first piece: half of a short flight, if the first derivatives tell of one.
-Ball first_step(const Flow& flow, const Flow::Flight& flight, std::span<const Margin> margins) {
-  double step = 0.5 / flow.rate();
+template <class Flight>
+Ball first_step(double fastest, const Flight& flight, std::span<const Margin> margins) {
+  double step = 0.5 / fastest;
   const Flow::Instant start = flight.at(Ball(0));
   for (const Margin& margin : margins) {
     if (margin.vanishing != 1) continue;
@@ -60,12 +63,13 @@ Ball first_step(const Flow& flow, const Flow::Flight& flight, std::span<const Ma
 
 }  // namespace
 
-std::optional<Crossing> first_crossing(const Flow& flow, const Flow::Flight& flight, std::span<const Margin> margins,
+template <class Flight>
+std::optional<Crossing> first_crossing(double fastest, const Flight& flight, std::span<const Margin> margins,
                                        const Ball& horizon) {
   if (!horizon.is_finite()) throw Undecided("how long a flight lasts");
-  const Ball end = horizon.upper(), longest(2 / flow.rate());
-  Ball from(0), step = first_step(flow, flight, margins);
-  const double most_pieces = std::min(8.0 * static_cast<double>(bits) + 16 * flow.rate() * end.near(), 1e6);
+  const Ball end = horizon.upper(), longest(2 / fastest);
+  Ball from(0), step = first_step(fastest, flight, margins);
+  const double most_pieces = std::min(8.0 * static_cast<double>(bits) + 16 * fastest * end.near(), 1e6);
   int halvings = 0;
   for (double pieces = 0; from < end; ++pieces) {
     if (!(pieces < most_pieces)) throw Undecided("which event comes first, in balls as wide as these");
@@ -107,7 +111,8 @@ std::optional<Ball> turn_of(const Flow::Flight& flight, const Margin& margin, co
   return now;
 }
 
-Ball instant_of(const Flow::Flight& flight, const Margin& margin, const Ball& between) {
+template <class Flight>
+Ball instant_of(const Flight& flight, const Margin& margin, const Ball& between) {
   Ball now = between, guess = between.middle();
   Flow::Instant there = flight.at(guess);
   for (int iteration = 0; iteration < 8 && now.radius() > 1e-6; ++iteration) {  // no proof depends on where this leads
@@ -128,5 +133,12 @@ Ball instant_of(const Flow::Flight& flight, const Margin& margin, const Ball& be
   }
   return now;
 }
+
+template std::optional<Crossing> first_crossing(double, const Flow::Flight&, std::span<const Margin>, const Ball&);
+template std::optional<Crossing> first_crossing(double, const FlightInHousing&, std::span<const Margin>, const Ball&);
+template std::optional<Crossing> first_crossing(double, const WallForce&, std::span<const Margin>, const Ball&);
+template Ball instant_of(const Flow::Flight&, const Margin&, const Ball&);
+template Ball instant_of(const FlightInHousing&, const Margin&, const Ball&);
+template Ball instant_of(const WallForce&, const Margin&, const Ball&);
 
 }  // namespace verify

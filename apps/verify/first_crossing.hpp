@@ -25,15 +25,22 @@ struct Margin {
   }
 };
 
-/// A flight between two instants, by Taylor's theorem about their middle.
+/// A function of time with four derivatives between two instants, by Taylor's theorem about their middle: a flight, or
+/// anything else that is given `at` an instant.
 class Piece {
  public:
-  Piece(const Flow::Flight& flight, const Ball& from, const Ball& to);
+  template <class Flight>
+  Piece(const Flight& flight, const Ball& from, const Ball& to)
+      : middle_(flight.at(((from + to) / Ball(2)).middle())), all_(flight.at(Ball::hull(from, to))) {
+    set_steps(from, to);
+  }
 
   /// All values in the piece of a margin or of its derivative of some order, 0 ... 3.
   [[nodiscard]] Ball range(const Margin& margin, int order) const;
 
  private:
+  void set_steps(const Ball& from, const Ball& to);
+
   Flow::Instant middle_, all_;
   Ball step_, half_square_, sixth_cube_;  ///< the powers of the time from the middle
 };
@@ -45,15 +52,18 @@ struct Crossing {
 };
 
 /// The first margin to fall to 0 within a time, with proof that none does so before, for all motions of the flight's
-/// balls; nothing if none falls to 0 in that time. Throws Undecided if two come too near to each other, or one to 0.
-[[nodiscard]] std::optional<Crossing> first_crossing(const Flow& flow, const Flow::Flight& flight,
-                                                     std::span<const Margin> margins, const Ball& horizon);
+/// balls; nothing if none falls to 0 in that time. `rate` is the greatest at which motion changes, for the choice of a
+/// step. Throws Undecided if two come too near to each other, or one to 0.
+template <class Flight>
+[[nodiscard]] std::optional<Crossing> first_crossing(double rate, const Flight& flight, std::span<const Margin> margins,
+                                                     const Ball& horizon);
 
 /// The instant between two others at which a margin turns round, whose second derivative has one sign there; nothing if
 /// it doesn't turn.
 [[nodiscard]] std::optional<Ball> turn_of(const Flow::Flight& flight, const Margin& margin, const Ball& between);
 
 /// The instant of a crossing that lies between two instants, by Newton's method in balls.
-[[nodiscard]] Ball instant_of(const Flow::Flight& flight, const Margin& margin, const Ball& between);
+template <class Flight>
+[[nodiscard]] Ball instant_of(const Flight& flight, const Margin& margin, const Ball& between);
 
 }  // namespace verify

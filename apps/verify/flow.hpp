@@ -2,40 +2,10 @@
 
 #include <optional>
 
+#include "linear.hpp"
 #include "scene.hpp"
 
 namespace verify {
-
-/// A 2 x 2 matrix, by rows.
-template <class Number>
-struct BasicMatrix {
-  Number a, b, c, d;
-
-  friend BasicMatrix operator*(const BasicMatrix& p, const BasicMatrix& q) {
-    return {p.a * q.a + p.b * q.c, p.a * q.b + p.b * q.d, p.c * q.a + p.d * q.c, p.c * q.b + p.d * q.d};
-  }
-  [[nodiscard]] Number determinant() const { return a * d - b * c; }
-  [[nodiscard]] BasicMatrix inverse() const {
-    const Number e = determinant();
-    return {d / e, -b / e, -c / e, a / e};
-  }
-  [[nodiscard]] BasicMatrix middle() const { return {a.middle(), b.middle(), c.middle(), d.middle()}; }
-};
-using Matrix = BasicMatrix<Ball>;
-
-template <class Number>
-struct BasicVector {
-  Number x, y;
-
-  friend BasicVector operator+(const BasicVector& p, const BasicVector& q) { return {p.x + q.x, p.y + q.y}; }
-  friend BasicVector operator-(const BasicVector& p, const BasicVector& q) { return {p.x - q.x, p.y - q.y}; }
-  friend BasicVector operator-(const BasicVector& p) { return {-p.x, -p.y}; }
-  friend BasicVector operator*(const BasicMatrix<Number>& m, const BasicVector& p) {
-    return {m.a * p.x + m.b * p.y, m.c * p.x + m.d * p.y};
-  }
-  [[nodiscard]] BasicVector middle() const { return {x.middle(), y.middle()}; }
-};
-using Vector = BasicVector<Ball>;
 
 /// The linear oscillator of one phase of the motion: free, or in contact with a soft stop (eq. 51). With duals all that
 /// it gives are derivatives by the parameter, too.

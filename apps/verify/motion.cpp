@@ -4,31 +4,6 @@
 
 namespace verify {
 
-const char* name_of(Kind kind) {
-  switch (kind) {
-    case Kind::impact:
-      return "impact";
-    case Kind::touch:
-      return "touch";
-    case Kind::separation:
-      return "separation";
-    case Kind::renewal:
-      return "renewal";
-    case Kind::graze:
-      return "graze";
-    case Kind::chatter:
-      return "chatter";
-    case Kind::rest:
-      return "rest";
-    case Kind::reversal:
-      return "reversal";
-    case Kind::stick:
-      return "stick";
-    default:
-      return "end";
-  }
-}
-
 namespace {
 
 template <class Number>
@@ -157,7 +132,7 @@ Event Motion::next(const Ball& end) {
   const Flow::Flight all(flow(), state.time, state.x, state.v);
   const std::vector<Margin> list = margins();
   const Ball horizon = end - state.time;
-  const auto crossing = first_crossing(flow(), all, list, horizon);
+  const auto crossing = first_crossing(flow().rate(), all, list, horizon);
   if (crossing) {
     const Margin& margin = list[crossing->margin];
     const Ball instant = instant_of(all, margin, Ball::hull(crossing->from, crossing->to));
@@ -181,7 +156,7 @@ bool Motion::is_clear_until(const Ball& time) const {
   if (!horizon.is_positive()) return horizon.is_negative();
   const Flow::Flight all(flow(), state.time, state.x, state.v);
   try {
-    return !first_crossing(flow(), all, margins(), horizon);
+    return !first_crossing(flow().rate(), all, margins(), horizon);
   } catch (const Undecided&) {
     return false;
   }
@@ -209,10 +184,10 @@ Event Motion::graze(Side side, const Ball& about, const Ball& end) {
   for (int halvings = 0; !turns_within(); half = half / Ball(2))
     if (++halvings > 30) {
       const Ball until_then = smaller(about, end) - state.time;
-      if (until_then.is_positive() && first_crossing(flow(), all, list, until_then)) return next(end);
+      if (until_then.is_positive() && first_crossing(flow().rate(), all, list, until_then)) return next(end);
       throw Undecided("whether the motion turns at the stop");
     }
-  if (first_crossing(flow(), all, list, from)) return next(end);
+  if (first_crossing(flow().rate(), all, list, from)) return next(end);
   const auto turn = turn_of(all, margin, Ball::hull(from, to));
   if (!turn) throw Undecided("when the motion turns at the stop");
   Event event{Kind::graze, side, state.time + *turn, Ball(0), Ball(0)};

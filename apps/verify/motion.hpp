@@ -4,39 +4,10 @@
 #include <vector>
 
 #include "first_crossing.hpp"
+#include "followed.hpp"
 #include "moving_set.hpp"
 
 namespace verify {
-
-enum class Kind { impact, touch, separation, renewal, graze, reversal, chatter, rest, stick, end };
-
-[[nodiscard]] const char* name_of(Kind kind);
-
-/// The derivative of an event's velocity by the state at the start and by the parameter.
-struct Slopes {
-  Ball by_x, by_v, by_parameter;
-};
-
-/// Something that happens to all motions of a set.
-struct Event {
-  Kind kind = Kind::end;
-  Side side = Side::lower;
-  Ball time, v;  ///< v: before an impact
-  Ball until;    ///< of a chatter, a rest or a stick
-  Ball gap{};    ///< of a graze: the least that is left to the stop, or of its force; below 0 the motion passes through
-  Slopes slopes{};
-  Ball x{};  ///< of a reversal or a stick: the place
-};
-
-[[nodiscard]] inline bool is_of_friction(Kind kind) { return kind == Kind::reversal || kind == Kind::stick; }
-
-/// The state that a motion starts from.
-struct Start {
-  Ball time;
-  Ball x, v;
-  bool released = false;  ///< by a stop, at the phase nearest to `time` at which the force that presses falls to 0
-  Side side = Side::lower;
-};
 
 /// A scene that changes with a parameter, and how fast the end of its motion does.
 struct Family {
@@ -45,29 +16,21 @@ struct Family {
 };
 
 /// The motion of a set of states from event to event, in proved bounds.
-class Motion {
+class Motion : public Followed {
  public:
   /// Of all states at most `width` from the start in x and in v.
   Motion(const Scene& scene, const Start& start, const Vector& width);
   /// In a scene whose parameter may have all values of its balls, with derivatives by that parameter.
   Motion(const Scene& scene, const Family& family, const Start& start);
 
-  /// The next event before a time, or the end there.
-  Event next(const Ball& end);
-  /// Whether no event is before a time, or at it.
-  [[nodiscard]] bool is_clear_until(const Ball& time) const;
-  /// Passes the place near a time at which the motion turns without meeting a stop, or a soft stop's force turns
-  /// without falling to 0, or at which it is taken to do so: that margin is believed there.
-  Event graze(Side side, const Ball& about, const Ball& end);
-  /// The end of the chatter that the last impact began, told to this accuracy; or, if there is none that ends before a
-  /// time, an event that shows it. Throws Undecided if neither is proved.
-  /// Its flights are followed until the others stay within so much of the stop.
-  Event finish_chatter(double accuracy, const Ball& latest, double height);
-  /// The rest that begins now, up to its release or to a time.
-  Event finish_rest(const Ball& end);
+  Event next(const Ball& end) override;
+  [[nodiscard]] bool is_clear_until(const Ball& time) const override;
+  Event graze(Side side, const Ball& about, const Ball& end) override;
+  Event finish_chatter(double accuracy, const Ball& latest, double height) override;
+  Event finish_rest(const Ball& end) override;
 
-  [[nodiscard]] bool is_resting() const { return resting_; }
-  [[nodiscard]] bool is_sticking() const { return sticks_; }              ///< up to the end
+  [[nodiscard]] bool is_resting() const override { return resting_; }
+  [[nodiscard]] bool is_sticking() const override { return sticks_; }
   [[nodiscard]] Vector state() const { return set_.hull(); }              ///< x and v at the end
   [[nodiscard]] Vector centre() const { return set_.image_of_centre(); }  ///< x and v at the end of the middle one
   [[nodiscard]] Matrix derivative() const { return set_.derivative(); }   ///< of the state at the end by the start
@@ -79,15 +42,6 @@ class Motion {
   /// The oscillator of the present mode, and what its motion must stay clear of until the next event.
   [[nodiscard]] const Flow& flow() const { return (*flows_)[number_of_flow()]; }
   [[nodiscard]] std::vector<Margin> margins() const;
-
-  /// A stretch of motion without an event, for those who look into it.
-  struct Stretch {
-    Flow::Flight flight;
-    Ball length;
-  };
-  [[nodiscard]] const std::vector<Stretch>& stretches() const { return stretches_; }
-  /// Displacements that hold those of the flights of chatters that aren't followed.
-  [[nodiscard]] const std::vector<Ball>& other_places() const { return other_places_; }
 
  private:
   enum class Mode { free, contact, beyond };
@@ -144,8 +98,6 @@ class Motion {
   bool resting_ = false, was_exact_ = false, hits_at_start_ = false;
   Ball rest_begin_, start_time_;
   slong turns_ = 0;
-  std::vector<Stretch> stretches_;
-  std::vector<Ball> other_places_;
 };
 
 }  // namespace verify

@@ -1,6 +1,6 @@
 #include "orbit.hpp"
 
-#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace verify {
@@ -23,63 +23,23 @@ Motion followed(const Certificate& certificate, const Scene& scene, const Sectio
   return motion;
 }
 
-Matrix less_identity(const Matrix& m) { return {m.a - Ball(1), m.b, m.c, m.d - Ball(1)}; }
-
-}  // namespace
-
-namespace {
-
-/// Krawczyk's operator on a box about a start; nothing if it doesn't map the box into itself, and then a wider box.
-std::optional<Orbit> proved_within(const Certificate& certificate, const Scene& scene, const Start& start, long periods,
-                                   Vector& width) {
-  std::vector<Event> events;
-  Motion motion = followed(certificate, scene, {start, width}, periods, events);
-  const Matrix derivative = motion.derivative(), slope = less_identity(derivative);
-  const Matrix inverse = slope.middle().inverse().middle();
-  const Vector from = -(inverse * (motion.centre() - Vector{start.x, start.v}));
-  Matrix rest = inverse * slope;
-  rest = {Ball(1) - rest.a, -rest.b, -rest.c, Ball(1) - rest.d};
-  const Vector box{Ball::around_zero(width.x), Ball::around_zero(width.y)}, image = from + rest * box;
-  if (!image.x.is_finite() || !image.y.is_finite()) throw Undecided("Krawczyk's operator");
-  if (box.x.holds_inside(image.x) && box.y.holds_inside(image.y))
-    return Orbit{std::move(motion),  events, derivative,
-                 {start.x, start.v}, width,  {start.x + image.x, start.v + image.y}};
-  width = {Ball(4) * abs(image.x).upper(), Ball(4) * abs(image.y).upper()};
-  return std::nullopt;
-}
-
 }  // namespace
 
 Orbit periodic_orbit(const Certificate& certificate, const Scene& scene, long periods) {
   Start start = certificate.start_in_balls();
-  start.x = start.x.middle(), start.v = start.v.middle();
-  if (bits == 64) {  // a claim is mostly much better than its error
-    const Ball part(0.125);
-    Vector width{(part * certificate.start_x.error.ball()).middle(),
-                 (part * certificate.start_v.error.ball()).middle()};
-    try {
-      if (auto orbit = proved_within(certificate, scene, start, periods, width)) return *std::move(orbit);
-    } catch (const Undecided&) {  // Newton's steps may lead to a smaller box
-    }
-  }
-  const Vector zero{Ball(0), Ball(0)};
-  Vector width = zero;
-  for (slong precision = bits; precision >= 64; precision /= 2) {  // each step doubles the digits
-    std::vector<Event> events;
-    const Motion thin = followed(certificate, scene, {start, zero}, periods, events);
-    const Vector gap = thin.state() - Vector{start.x, start.v};
-    const Vector step = less_identity(thin.derivative()).middle().inverse().middle() * gap.middle();
-    if (!step.x.is_finite() || !step.y.is_finite()) throw Undecided("Newton's step");
-    start.x = (start.x - step.x).middle(), start.v = (start.v - step.y).middle();
-    const double least = std::ldexp(1.0, -static_cast<int>(bits) + 12);
-    const auto wide = [&](const Ball& by, const Ball& at) {
-      return Ball(std::abs(by.near()) / 512 + least * (std::abs(at.near()) + 1e-3));
-    };
-    width = {wide(step.x, start.x), wide(step.y, start.v)};
-  }
-  for (int attempt = 0; attempt < 5; ++attempt)
-    if (auto orbit = proved_within(certificate, scene, start, periods, width)) return *std::move(orbit);
-  throw Undecided("whether there is a periodic motion: Krawczyk's operator doesn't contract");
+  const Ball part(0.125);
+  const Vector claimed{(part * certificate.start_x.error.ball()).middle(),
+                       (part * certificate.start_v.error.ball()).middle()};
+  std::vector<Event> events;
+  std::optional<Motion> motion;
+  const auto pass = [&](const Vector& middle, const Vector& width) -> Passage<Vector, Matrix> {
+    start.x = middle.x, start.v = middle.y;
+    motion.emplace(followed(certificate, scene, {start, width}, periods, events));
+    return {motion->centre(), motion->derivative()};
+  };
+  const FixedBox<Vector> box = fixed_point(Vector{start.x.middle(), start.v.middle()}, claimed, pass);
+  const Matrix derivative = motion->derivative();
+  return {box, *std::move(motion), events, derivative};
 }
 
 namespace {
@@ -88,7 +48,7 @@ namespace {
 Orbit exact(Motion motion, const std::vector<Event>& events, const Certificate& certificate) {
   const Ball zero(0);
   const Vector start{certificate.start_x.value.ball(), certificate.start_v.value.ball()};
-  return {std::move(motion), events, {zero, zero, zero, zero}, start, {zero, zero}, start};
+  return {{start, {zero, zero}, start}, std::move(motion), events, Matrix::zero()};
 }
 
 /// Motion that starts with a release and ends with the same one, a whole number of forcing periods later: its state is
@@ -105,13 +65,8 @@ Orbit resting_orbit(const Certificate& certificate, const Scene& scene) {
 
 }  // namespace
 
-namespace {
-
-/// Refutes a claim if no motion that starts within its errors meets the claimed events.
-void require_possible(const Certificate& certificate, const Scene& scene) {
-  Motion motion(scene, certificate.start_in_balls(),
-                {certificate.start_x.error.ball(), certificate.start_v.error.ball()});
-  Course course(certificate, motion, motion.start_time() + length_of(scene, certificate.periods));
+void require_possible(const Certificate& certificate, Followed& motion, const Ball& end) {
+  Course course(certificate, motion, end);
   try {
     course.run();
   } catch (const Undecided&) {  // the events before it are found
@@ -120,8 +75,6 @@ void require_possible(const Certificate& certificate, const Scene& scene) {
   compare_events(certificate, course.events(), report);
   if (report.finding().verdict == Verdict::refuted) throw Refuted(report.first_refuted());
 }
-
-}  // namespace
 
 void require_same_release(const Certificate& certificate, const Course& course, slong periods) {
   if (!course.ends_with_release() || course.events().back().side != *certificate.released)
@@ -155,13 +108,18 @@ Orbit claimed_orbit(const Certificate& certificate, const Scene& scene) {
   if (certificate.released) return resting_orbit(certificate, scene);
   const bool held = certificate.events.size() == 1 && certificate.events[0].kind == Kind::rest;
   if (!held) {
+    const auto require_one = [&] {
+      Motion motion(scene, certificate.start_in_balls(),
+                    {certificate.start_x.error.ball(), certificate.start_v.error.ball()});
+      require_possible(certificate, motion, motion.start_time() + length_of(scene, certificate.periods));
+    };
     try {
       return periodic_orbit(certificate, scene, certificate.periods);
     } catch (const Undecided&) {
-      require_possible(certificate, scene);
+      require_one();
       throw;
     } catch (const Refuted& near) {  // of motion from the middle of the claimed errors
-      require_possible(certificate, scene);
+      require_one();
       throw Undecided(near.what());
     }
   }

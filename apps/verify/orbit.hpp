@@ -4,22 +4,16 @@
 #include <vector>
 
 #include "course.hpp"
+#include "fixed_point.hpp"
+#include "motion.hpp"
 
 namespace verify {
 
 /// A proved periodic motion, the only one whose state at the start is in a box.
-struct Orbit {
+struct Orbit : FixedBox<Vector> {
   Motion motion;
   std::vector<Event> events;
-  Matrix derivative;    ///< of a period
-  Vector start, width;  ///< the box
-  Vector first;         ///< where in it the motion starts
-
-  /// Whether a state is in the box.
-  [[nodiscard]] bool holds(const Vector& state) const {
-    return (start.x + Ball::around_zero(width.x)).holds_inside(state.x) &&
-           (start.y + Ball::around_zero(width.y)).holds_inside(state.y);
-  }
+  Matrix derivative;  ///< of a period
 };
 
 /// So many forcing periods.
@@ -41,6 +35,9 @@ void require_same_release(const Certificate& certificate, const Course& course, 
 
 /// The periodic motion near a start, by Newton's step and Krawczyk's operator. Throws Refuted or Undecided.
 [[nodiscard]] Orbit periodic_orbit(const Certificate& certificate, const Scene& scene, long periods);
+
+/// Refutes a claim if a motion of the claimed errors, followed up to the end, doesn't meet the claimed events.
+void require_possible(const Certificate& certificate, Followed& motion, const Ball& end);
 
 /// The periodic motion that a certificate claims, resting or not. Throws Refuted or Undecided.
 [[nodiscard]] Orbit claimed_orbit(const Certificate& certificate, const Scene& scene);

@@ -1,9 +1,11 @@
 #include "claims.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <optional>
+#include <vector>
 
 namespace verify {
 namespace {
@@ -38,23 +40,30 @@ bool differs_after(const std::vector<Event>& all, std::size_t parts, const Ball&
   return false;
 }
 
-void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report) {
+void check_smallest_period(const Certificate& certificate, const Scene& scene, const std::vector<Event>& events,
+                           const std::function<bool(long parts)>& repeats_after, Report& report) {
   for (long parts = 2; parts <= certificate.periods; ++parts) {
     if (certificate.periods % parts != 0) continue;
-    if (differs_after(orbit.events, static_cast<std::size_t>(parts), length_of(scene, certificate.periods))) continue;
-    Certificate shorter = certificate;  // its events are the first share of them, or the claim fails
-    shorter.periods = certificate.periods / parts;
-    shorter.events.resize(certificate.events.size() / static_cast<std::size_t>(parts));
+    if (differs_after(events, static_cast<std::size_t>(parts), length_of(scene, certificate.periods))) continue;
     try {
-      const bool is_the_same = orbit.holds(periodic_orbit(shorter, scene, shorter.periods).first);
-      report.add(
-          is_the_same ? Verdict::refuted : Verdict::undecided,
-          "periods: claimed " + std::to_string(certificate.periods) + ", found " + std::to_string(shorter.periods));
+      report.add(repeats_after(parts) ? Verdict::refuted : Verdict::undecided,
+                 "periods: claimed " + std::to_string(certificate.periods) + ", found " +
+                     std::to_string(certificate.periods / parts));
     } catch (const Refuted&) {
       report.add(Verdict::undecided, "whether a smaller period is one");
     }
     return;
   }
+}
+
+void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report) {
+  const auto repeats_after = [&](long parts) {
+    Certificate shorter = certificate;  // its events are the first share of them, or the claim fails
+    shorter.periods = certificate.periods / parts;
+    shorter.events.resize(certificate.events.size() / static_cast<std::size_t>(parts));
+    return orbit.holds(periodic_orbit(shorter, scene, shorter.periods).first);
+  };
+  check_smallest_period(certificate, scene, orbit.events, repeats_after, report);
 }
 
 namespace {
@@ -88,7 +97,7 @@ std::string letters_of(const std::vector<Event>& events) {
   for (const Event& event : events) {
     const char letter = event.side == Side::upper ? 'U' : 'L';
     if (event.kind == Kind::impact || event.kind == Kind::touch) word += letter;
-    if (event.kind != Kind::rest) continue;
+    if (!holds(event.kind)) continue;
     bool any = false;
     while (!word.empty() && word.back() == letter) word.pop_back(), any = true;
     if (any) (word += letter) += '*';
@@ -96,29 +105,27 @@ std::string letters_of(const std::vector<Event>& events) {
   return word;
 }
 
-/// The two multipliers: the eigenvalues of the derivative of a period, by (real part, imaginary part).
-std::optional<std::array<Vector, 2>> eigenvalues(const Matrix& m) {
-  const Ball half = (m.a + m.d) / Ball(2), rest = square((m.a - m.d) / Ball(2)) + m.b * m.c;
-  if (rest.is_positive()) return std::array{Vector{half + sqrt(rest), Ball(0)}, Vector{half - sqrt(rest), Ball(0)}};
-  if (rest.is_negative()) return std::array{Vector{half, sqrt(-rest)}, Vector{half, -sqrt(-rest)}};
-  if (rest.is_zero()) return std::array{Vector{half, Ball(0)}, Vector{half, Ball(0)}};
-  return std::nullopt;
-}
-
 }  // namespace
 
-void check_multipliers(const Certificate& certificate, const Matrix& derivative, Report& report) {
+void check_multipliers(const Certificate& certificate, const std::optional<std::vector<Vector>>& found,
+                       Report& report) {
   if (!certificate.multipliers) return;
-  const auto found = eigenvalues(derivative);
   if (!found) return report.add(Verdict::undecided, "multipliers: whether they are real");
   const auto& claimed = *certificate.multipliers;
   const auto distance = [&](std::size_t i, std::size_t j) {
     return std::hypot(claimed[i][0].ball().near() - (*found)[j].x.near(),
                       claimed[i][1].ball().near() - (*found)[j].y.near());
   };
-  const bool crossed = distance(0, 1) + distance(1, 0) < distance(0, 0) + distance(1, 1);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Vector& one = (*found)[crossed ? 1 - i : i];
+  std::vector<std::size_t> order(claimed.size()), nearest;
+  std::iota(order.begin(), order.end(), 0);
+  double least = std::numeric_limits<double>::infinity();
+  do {
+    double sum = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) sum += distance(i, order[i]);
+    if (sum < least || nearest.empty()) least = sum, nearest = order;
+  } while (std::ranges::next_permutation(order).found);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Vector& one = (*found)[nearest[i]];
     const std::string name = "multiplier " + std::to_string(i + 1);
     report.compare(name + ", real part", one.x, {claimed[i][0], claimed[i][2]});
     report.compare(name + ", imaginary part", one.y, {claimed[i][1], claimed[i][2]});
@@ -184,17 +191,25 @@ bool releases_mirrored(const Certificate& certificate, const Scene& scene, const
 
 }  // namespace
 
-void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report) {
+void check_symmetry(const Certificate& certificate, const Scene& scene, const std::vector<Event>& events,
+                    const std::function<bool(const Ball& centre)>& returns_mirrored, Report& report) {
   if (!certificate.symmetric) return;
-  const bool claimed = *certificate.symmetric, differs = differs_from_mirror(certificate, orbit.events, scene);
+  const bool claimed = *certificate.symmetric, differs = differs_from_mirror(certificate, events, scene);
   if (differs && claimed) report.add(Verdict::refuted, "symmetric: claimed true, found false");
   if (differs) return;
   const auto centre = mirror_centre(scene);
   if (!centre) return report.add(Verdict::undecided, "symmetric: the scene isn't, to its last digit");
-  const bool found = certificate.released ? releases_mirrored(certificate, scene, orbit)
-                                          : returns_mirrored(certificate, scene, *centre, orbit);
+  const bool found = returns_mirrored(*centre);
   if (!found) report.add(Verdict::undecided, "symmetric: neither proved nor refuted");
   if (!claimed && found) report.add(Verdict::refuted, "symmetric: claimed false, found true");
+}
+
+void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report) {
+  const auto is_mirrored = [&](const Ball& centre) {
+    return certificate.released ? releases_mirrored(certificate, scene, orbit)
+                                : returns_mirrored(certificate, scene, centre, orbit);
+  };
+  check_symmetry(certificate, scene, orbit.events, is_mirrored, report);
 }
 
 }  // namespace verify

@@ -29,12 +29,25 @@ struct BasicStop {
   [[nodiscard]] Number q() const { return soft ? Number(2) * h_s / kappa : Number(0); }
 };
 
+/// A loose mass in a housing that the main mass carries: y'' = load between impacts on its walls, at z = y - x.
+template <class Number>
+struct BasicLooseMass {
+  Number mass;                                 ///< over the main mass
+  Number R, load;                              ///< restitution of both walls, acceleration in flight
+  std::array<std::optional<Number>, 2> walls;  ///< z [side]
+
+  [[nodiscard]] const Number& wall(Side side) const { return *walls[index_of(side)]; }
+  /// The share of both masses that it is: of a jump of z' the main mass takes so much.
+  [[nodiscard]] Number share() const { return mass / (Number(1) + mass); }
+};
+
 /// x'' + 2h x' + k x + friction sgn x' = f sin(nu tau + phase) + load between two stops.
 template <class Number>
 struct BasicScene {
   Number h, k, f, nu, load, phase;
   std::array<std::optional<BasicStop<Number>>, 2> stops;  ///< [side]
   Number friction{0}, friction_static{0};                 ///< of a mass that moves, and the most that holds a still one
+  std::optional<BasicLooseMass<Number>> loose{};
 
   [[nodiscard]] const BasicStop<Number>& stop(Side side) const { return *stops[index_of(side)]; }
   [[nodiscard]] bool is_rough() const { return !friction_static.is_zero(); }
@@ -50,6 +63,8 @@ struct BasicScene {
 template <class Number>
 [[nodiscard]] std::optional<Number> mirror_centre(const BasicScene<Number>& scene) {
   const auto& [lower, upper] = scene.stops;
+  if (const auto& loose = scene.loose)  // its housing has the mirror image that it is about its own middle
+    if (!loose->load.is_zero() || !loose->walls[0] || !loose->walls[1]) return std::nullopt;
   if (lower.has_value() != upper.has_value()) return std::nullopt;
   if ((scene.k.is_zero() || !scene.k.is_constant()) && !scene.load.is_zero()) return std::nullopt;
   if (!lower) return scene.k.is_zero() ? Number(0) : scene.load / scene.k;
@@ -62,6 +77,7 @@ template <class Number>
 }
 
 using Stop = BasicStop<Ball>;
+using LooseMass = BasicLooseMass<Ball>;
 using Scene = BasicScene<Ball>;
 /// A scene that changes with a parameter: its numbers, and their derivatives.
 using MovingScene = BasicScene<Dual>;

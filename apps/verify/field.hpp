@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "certificate.hpp"
+
+namespace verify {
+
+using Json = nlohmann::json;
+
+/// The beginning of a text of a file, without control characters.
+inline std::string shown(const std::string& text) {
+  const std::string escaped = Json(text.substr(0, 40)).dump(-1, ' ', true, Json::error_handler_t::replace);
+  std::string quoted(escaped);
+  quoted.front() = quoted.back() = '\'';
+  return quoted;
+}
+
+/// A value of a certificate and its place in it.
+class Field {
+ public:
+  Field(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
+
+  [[noreturn]] void refuse(const std::string& found, const std::string& way_out) const {
+    throw FormatError(path_ + ": " + found + "; " + way_out);
+  }
+  [[nodiscard]] std::optional<Field> find(const std::string& name) const {
+    require_object();
+    const auto member = json_.find(name);
+    if (member == json_.end()) return std::nullopt;
+    return Field(*member, path_.empty() ? name : path_ + "." + name);
+  }
+  [[nodiscard]] Field get(const std::string& name) const {
+    if (const auto member = find(name)) return *member;
+    Field(json_, path_.empty() ? name : path_ + "." + name).refuse("is missing", "add it");
+  }
+  void require_object() const {
+    if (!json_.is_object()) refuse("is no object", "write {...}");
+  }
+  [[nodiscard]] std::vector<Field> items() const {
+    if (!json_.is_array()) refuse("is no array", "write [...]");
+    std::vector<Field> list;
+    for (std::size_t i = 0; i < json_.size(); ++i) list.emplace_back(json_[i], path_ + "[" + std::to_string(i) + "]");
+    return list;
+  }
+  [[nodiscard]] std::string text() const {
+    if (!json_.is_string()) refuse("is no text", "write it in quotes");
+    return json_.get<std::string>();
+  }
+  [[nodiscard]] bool flag() const {
+    if (!json_.is_boolean()) refuse("is neither true nor false", "write one of them");
+    return json_.get<bool>();
+  }
+  [[nodiscard]] Number number() const {
+    if (json_.is_number()) {
+      const double value = json_.get<double>();
+      if (!std::isfinite(value)) refuse("is beyond double", "write a decimal number in quotes");
+      return Number(value);
+    }
+    if (!json_.is_string()) refuse("is no number", "write a number, or a decimal number in quotes");
+    const std::string text = json_.get<std::string>();
+    Ball ball;
+    if (text.find_first_not_of("0123456789+-.eE") != std::string::npos || text.size() > 400 || !Ball::read(text, ball))
+      refuse(shown(text) + " is no decimal number", "write e.g. \"0.1\"");
+    if (!(abs(ball) < Ball(1e300)) || !(abs(ball) > Ball(1e-300) || ball.is_zero()))
+      refuse(shown(text) + " is beyond 1e-300 to 1e300", "change the units");
+    return Number(text);
+  }
+  [[nodiscard]] Number number_from(double least, double most, bool with_least = true) const {
+    const Number value = number();
+    const Ball ball = value.ball();
+    if (ball < Ball(least) || (!with_least && !(ball > Ball(least))) || ball > Ball(most))
+      refuse("is " + value.text(), std::string("it must be ") + (with_least ? "at least " : "above ") +
+                                       Number(least).text() +
+                                       (std::isfinite(most) ? " and at most " + Number(most).text() : ""));
+    return value;
+  }
+  [[nodiscard]] Claimed claimed() const {
+    const auto pair = items();
+    if (pair.size() != 2) refuse("has " + std::to_string(pair.size()) + " items", "write [value, error]");
+    return {pair[0].number(), pair[1].number_from(0, infinity)};
+  }
+  [[nodiscard]] long count(long most) const {
+    if (!json_.is_number_integer()) refuse("is no whole number", "write 1 or more");
+    const auto value = json_.get<std::int64_t>();
+    if (value < 1 || value > most) refuse("is out of range", "write 1 to " + std::to_string(most));
+    return static_cast<long>(value);
+  }
+  [[nodiscard]] Side side() const {
+    const std::string name = text();
+    if (name != "lower" && name != "upper") refuse("is " + shown(name), "write lower or upper");
+    return name == "upper" ? Side::upper : Side::lower;
+  }
+  [[nodiscard]] std::string dump() const { return json_.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+ private:
+  const Json& json_;
+  std::string path_;
+};
+
+}  // namespace verify
