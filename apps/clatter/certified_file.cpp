@@ -40,11 +40,6 @@ void require_exact(const sweep::Sweep& sweep, const std::string& path) {
                    " isn't of the exact method, whose results alone are certified; run its configuration with --set "
                    "integrator.method=exact");
 }
-void require_no_loose_mass(const sweep::Sweep& sweep, const std::string& path) {
-  if (!has_loose_mass(sweep)) return;
-  throw UsageError(storage::quoted_name(path) +
-                   " has a loose mass, of which certificates say nothing; certify motions without 'loose_mass'");
-}
 
 }  // namespace
 
@@ -54,7 +49,7 @@ CertifiedFile::CertifiedFile(const std::string& path, const std::vector<Place>& 
   if (has(summary, "status") && has(summary, "period_ratio")) choice.only.emplace_back("period_ratio");
   const CsvTable table(summary, path, choice);
   sweep_ = outputs::config_of_output(summary, path).sweep;
-  require_exact(sweep_, path), require_no_loose_mass(sweep_, path);
+  require_exact(sweep_, path);
   results_ = results::read_variables(path, table.variables());
   points_ = table.points(results_);
   const auto* const status = results::values_of<std::uint8_t>(results_, "status");

@@ -99,11 +99,7 @@ std::optional<Round> run_round(const point::Problem& problem, std::size_t period
   std::ranges::copy(sections, orbit->states.begin());
   Round round{*orbit, {}};
   for (std::size_t i = 0; i <= periods; ++i) round.states.push_back(section_of(problem, orbit->states[i]));
-  if (recorder.loose) {
-    round.derivative = recorder.loose->mantissa();
-    for (auto& row : *round.derivative)
-      for (double& entry : row) entry *= std::exp2(recorder.loose->exponent());
-  }
+  if (recorder.loose) round.derivative = recorder.loose->map();
   add_contacts(recorder.events, static_cast<double>(periods) * motion->period(), round);
   return round;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -21,8 +20,9 @@ struct ClaimedEvent {
   motion::Event::Kind kind;
   Side side;
   Claimed time;
-  Claimed then;         ///< of a rest, a stick or a chatter the time of its end, else the velocity before the event
-  Claimed place{};      ///< of a stick or a reversal the displacement
+  Claimed then;     ///< of a rest, a stick or a chatter the time of its end, else the velocity before the event; with
+                    ///< a loose mass z', and a rest is a press
+  Claimed place{};  ///< of a stick or a reversal the displacement
   bool grazes = false;  ///< it has no speed, and changes nothing
 };
 
@@ -35,14 +35,15 @@ struct ClaimedMultiplier {
 struct ClaimedEnd {
   double time = 0.0;  ///< tau, exact
   Claimed x, v;
+  Claimed z, w;  ///< of a loose mass
 };
 
 /// The claims that only periodic motion has.
 struct ClaimedPeriod {
-  std::size_t periods = 1;                                        ///< forcing periods, > 0
-  std::optional<std::array<ClaimedMultiplier, 2>> multipliers{};  ///< nothing: not claimed
-  std::optional<std::string> word{};                              ///< nothing: too long to be told
-  std::optional<bool> symmetric{};                                ///< nothing: the scene isn't
+  std::size_t periods = 1;                                      ///< forcing periods, > 0
+  std::optional<std::vector<ClaimedMultiplier>> multipliers{};  ///< two, with a loose mass four; nothing: not claimed
+  std::optional<std::string> word{};                            ///< nothing: too long to be told
+  std::optional<bool> symmetric{};                              ///< nothing: the scene isn't
 };
 
 /// The derivatives of a scene's numbers by a parameter.
@@ -63,9 +64,10 @@ struct ClaimedSpecial {
 /// A motion and all that is claimed of it, in computed units and in the frame of what is shaken. Time 0 is where the
 /// phase of the force is that of `scene.start`.
 struct Certificate {
-  Scene scene;                          ///< `start.displacement` and `start.velocity` are those at `time`
+  Scene scene;                          ///< `start` and the loose mass's place and velocity are those at `time`
   double time = 0.0;                    ///< of the start, tau
-  double x_error = 0.0, v_error = 0.0;  ///< of the state at the start, of periodic motion
+  double x_error = 0.0, v_error = 0.0;  ///< of the state at the start, of periodic motion; with a loose mass all four
+  Side pressed = Side::none;            ///< the wall that presses a loose mass at the start
   Side released = Side::none;           ///< the stop that releases the mass at the start; none: the start is a state
   std::vector<ClaimedEvent> events{};
   Claimed x_min{}, x_max{};

@@ -49,6 +49,13 @@ Json json_of(const Stops& stops, Side side) {
   return stop;
 }
 
+Json json_of(const LooseMass& loose) {
+  Json json{{"mass", loose.ratio}, {"R", loose.restitution}, {"load", loose.load}};
+  if (std::isfinite(loose.lower)) json["lower"] = {{"position", loose.lower}};
+  if (std::isfinite(loose.upper)) json["upper"] = {{"position", loose.upper}};
+  return json;
+}
+
 Json json_of(const Scene& scene) {
   const Oscillator& o = scene.oscillator;
   Json json{{"h", o.damping},    {"k", o.stiffness}, {"f", o.forcing},
@@ -57,9 +64,19 @@ Json json_of(const Scene& scene) {
     json["friction"] = scene.friction.kinetic;
     if (scene.friction.static_level != scene.friction.kinetic) json["friction_static"] = scene.friction.static_level;
   }
+  if (has_loose_mass(scene.loose)) json["loose"] = json_of(scene.loose);
   if (std::isfinite(scene.stops.lower)) json["lower"] = json_of(scene.stops, Side::lower);
   if (std::isfinite(scene.stops.upper)) json["upper"] = json_of(scene.stops, Side::upper);
   return json;
+}
+
+/// An event on a wall of a loose mass.
+Json in_housing(const ClaimedEvent& event) {
+  const bool presses = event.kind == Kind::rest, lasts = presses || event.kind == Kind::chatter;
+  return {{"event", presses ? "press" : name_of(event.kind)},
+          {"stop", name_of(event.side)},
+          {"time", json_of(event.time)},
+          {lasts ? "until" : "w", json_of(event.then)}};
 }
 
 Json json_of(const ClaimedEvent& event) {
@@ -78,16 +95,28 @@ Json json_of(const ClaimedEvent& event) {
 }
 
 Json start_of(const Certificate& certificate) {
-  const Start& state = certificate.scene.start;
+  const Scene& scene = certificate.scene;
   Json start{{"time", certificate.time}};
-  if (certificate.released != Side::none)
+  if (certificate.released != Side::none) {
     start["released"] = name_of(certificate.released);
-  else if (certificate.period)
-    start["x"] = json_of(Claimed{state.displacement, certificate.x_error}),
-    start["v"] = json_of(Claimed{state.velocity, certificate.v_error});
+    return start;
+  }
+  const auto tell = [&](const char* name, double value, double error) {
+    start[name] = certificate.period ? json_of(Claimed{value, error}) : Json(value);
+  };
+  tell("x", scene.start.displacement, certificate.x_error), tell("v", scene.start.velocity, certificate.v_error);
+  if (!has_loose_mass(scene.loose)) return start;
+  if (certificate.pressed != Side::none)
+    start["pressed"] = name_of(certificate.pressed);
   else
-    start["x"] = state.displacement, start["v"] = state.velocity;
+    tell("z", scene.loose.place, certificate.x_error), tell("w", scene.loose.velocity, certificate.v_error);
   return start;
+}
+
+Json json_of(const ClaimedEnd& end, bool has_loose_mass) {
+  Json json{{"time", end.time}, {"x", json_of(end.x)}, {"v", json_of(end.v)}};
+  if (has_loose_mass) json["z"] = json_of(end.z), json["w"] = json_of(end.w);
+  return json;
 }
 
 /// The machine of a point, in SI.
@@ -148,12 +177,12 @@ std::string certificate_text(const Certificate& certificate, const CertifiedPlac
   if (certificate.period) json["periods"] = certificate.period->periods;
   json["start"] = start_of(certificate);
   json["events"] = Json::array();
-  for (const ClaimedEvent& event : certificate.events) json["events"].push_back(json_of(event));
+  const bool is_loose = has_loose_mass(certificate.scene.loose);
+  for (const ClaimedEvent& event : certificate.events)
+    json["events"].push_back(is_loose ? in_housing(event) : json_of(event));
   if (!special) json["x_min"] = json_of(certificate.x_min), json["x_max"] = json_of(certificate.x_max);
   if (certificate.period) add_period(json, *certificate.period);
-  if (certificate.end)
-    json["end"] = {
-        {"time", certificate.end->time}, {"x", json_of(certificate.end->x)}, {"v", json_of(certificate.end->v)}};
+  if (certificate.end) json["end"] = json_of(*certificate.end, is_loose);
   return json.dump() + '\n';
 }
 

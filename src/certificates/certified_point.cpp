@@ -5,9 +5,10 @@
 #include <complex>
 #include <utility>
 
+#include "certificates/certified_in_housing.hpp"
+#include "certificates/claims.hpp"
 #include "certificates/error_bounds.hpp"
 #include "certificates/recorded_motion.hpp"
-#include "observables/impact_word.hpp"
 
 namespace clatter::certificates {
 namespace {
@@ -55,6 +56,7 @@ Problem observed(Problem problem) {
   problem.observe = {};
   problem.observe.extrema = true;
   if (problem.time.mode == steady::Mode::steady) problem.observe.stability = problem.observe.word = true;
+  if (has_loose_mass(problem.loose)) problem.observe.frame = Frame::absolute;  // in which it is computed
   return problem;
 }
 
@@ -63,29 +65,13 @@ Problem from(Problem problem, double x, double v, double phase) {
   return problem;
 }
 
-/// The claims of a motion that begins at a time with the start of its problem, whose phase is then that of time 0.
-Certificate claims_of(const Problem& problem, const RecordedMotion& motion, const ErrorBounds& bounds,
-                      const PointResult& result) {
-  Certificate certificate{.scene = problem};
-  for (const RecordedEvent& event : motion.events)
-    certificate.events.push_back(
-        bounds.claimed(event, certificate.events.empty() ? nullptr : &certificate.events.back()));
-  certificate.x_min = bounds.claimed_extremum(result.x_min), certificate.x_max = bounds.claimed_extremum(result.x_max);
-  return certificate;
-}
-
-/// Drops a certificate whose errors are so large that it says nothing.
-void keep_if_known(CertifiedPoint& point, const ErrorBounds& bounds) {
-  point.without = bounds.tell(*point.certificate) ? Without::none : Without::rounding;
-  if (point.without != Without::none) point.certificate.reset();
-}
-
 bool is_cut(const RecordedMotion& motion) {
   return !motion.events.empty() && motion.events.back().kind == Kind::chatter &&
          motion.events.back().end() >= motion.duration * (1 - 1e-12);
 }
 
 void certify_transient(const Problem& problem, const PointResult& result, CertifiedPoint& point) {
+  if (has_loose_mass(problem.loose)) return certify_transient_in_housing(problem, result, point);
   auto motion = recorded(problem, problem.time.duration / period_of(problem.oscillator));
   if (!motion || is_cut(*motion)) {
     point.without = motion ? Without::cut_chatter : Without::rounding;
@@ -129,17 +115,16 @@ bool step_to_return(Start& start, const RecordedMotion& motion) {
 }
 
 ClaimedPeriod claimed_period(const PointResult& result, const ErrorBounds& bounds, bool rests) {
-  ClaimedPeriod period{.periods = static_cast<std::size_t>(std::llround(result.observed_turns))};
+  ClaimedPeriod period = period_of_result(result);
   const auto multiplier = [&](std::size_t i) {
     return std::complex<double>(result.multiplier_re[i], result.multiplier_im[i]);
   };
-  period.multipliers = rests ? std::array<ClaimedMultiplier, 2>{} : bounds.claimed({multiplier(0), multiplier(1)});
-  if (result.impact_word.size() <= observables::ImpactWord::longest) period.word = result.impact_word;
-  if (!std::isnan(result.symmetric)) period.symmetric = result.symmetric == 1.0;
+  period.multipliers = rests ? std::vector<ClaimedMultiplier>(2) : bounds.claimed({multiplier(0), multiplier(1)});
   return period;
 }
 
 void certify_periodic(const Problem& problem, const PointResult& result, CertifiedPoint& point) {
+  if (has_loose_mass(problem.loose)) return certify_periodic_in_housing(problem, result, point);
   point.without = Without::rounding;
   const double T = period_of(problem.oscillator);
   const Problem section = from(problem, result.end.displacement, result.end.velocity, result.end.phase);
@@ -166,8 +151,6 @@ void certify_periodic(const Problem& problem, const PointResult& result, Certifi
   point.certificate->period = claimed_period(result, bounds, start.released != Side::none || start.rests_for_ever);
   keep_if_known(point, bounds);
 }
-
-using Kind = motion::Event::Kind;
 
 }  // namespace
 

@@ -11,10 +11,6 @@ namespace {
 using Kind = motion::Event::Kind;
 using motion::Jacobian;
 
-constexpr double of_arithmetic = 1e-13;  // of each later one: some dozens of roundings
-constexpr double of_chatter = 1e-9;      // of the time that a chatter takes
-constexpr double of_multiplier = 1e-9;
-
 double norm(const Jacobian<double>& map) {
   return std::max(std::abs(map[0]) + std::abs(map[1]), std::abs(map[2]) + std::abs(map[3]));
 }
@@ -27,6 +23,16 @@ double norm_of_return(const Jacobian<double>& m) {
 }
 
 }  // namespace
+
+bool tells(const Certificate& certificate, double size, double forcing_period) {
+  constexpr double small = 1e-3;
+  const auto known = [](const Claimed& claim, double scale) { return claim.error <= small * scale; };
+  const auto& end = certificate.end;
+  return certificate.x_error <= small * size && known(certificate.x_min, size) && known(certificate.x_max, size) &&
+         (!end || (known(end->x, size) && known(end->v, size) && known(end->z, size) && known(end->w, size))) &&
+         std::ranges::all_of(certificate.events,
+                             [&](const ClaimedEvent& event) { return known(event.time, forcing_period); });
+}
 
 ErrorBounds::ErrorBounds(const point::Problem& problem, const RecordedMotion& motion, const point::PointResult& result,
                          double time, bool periodic)
@@ -154,19 +160,9 @@ double ErrorBounds::stiffness_at(double x) const {
   return within == Side::none ? k : k + motion::soft_stop_at<double>(stops_, within).stiffness;
 }
 
-bool ErrorBounds::tell(const Certificate& certificate) const {
-  constexpr double small = 1e-3;
-  const auto known = [](const Claimed& claim, double scale) { return claim.error <= small * scale; };
-  const auto& end = certificate.end;
-  return certificate.x_error <= small * size_ && known(certificate.x_min, size_) && known(certificate.x_max, size_) &&
-         (!end || (known(end->x, size_) && known(end->v, size_))) &&
-         std::ranges::all_of(certificate.events,
-                             [&](const ClaimedEvent& event) { return known(event.time, forcing_period_); });
-}
-
 ClaimedEnd ErrorBounds::claimed_end(const RecordedMotion& motion) const {
   const StateError error = error_after(motion.derivative, motion.rounding, size_);
-  return {begin_ + motion.duration, {motion.end.x, error.x}, {motion.end.v, error.v}};
+  return {begin_ + motion.duration, {motion.end.x, error.x}, {motion.end.v, error.v}, {}, {}};
 }
 
 Claimed ErrorBounds::claimed_extremum(double x) const {
@@ -174,12 +170,12 @@ Claimed ErrorBounds::claimed_extremum(double x) const {
 }
 
 /// Two multipliers that are nearly equal move as the root of the change of their sum and product.
-std::array<ClaimedMultiplier, 2> ErrorBounds::claimed(const std::array<std::complex<double>, 2>& multipliers) const {
+std::vector<ClaimedMultiplier> ErrorBounds::claimed(const std::array<std::complex<double>, 2>& multipliers) const {
   const double largest = std::max({1.0, std::abs(multipliers[0]), std::abs(multipliers[1])});
   const double off = of_multiplier * largest * of_start_ * stretching_;
   const double apart = std::abs(multipliers[0] - multipliers[1]);
   const double error = off + std::min(std::sqrt(off * largest), off * largest / apart);
-  std::array<ClaimedMultiplier, 2> claims;
+  std::vector<ClaimedMultiplier> claims(2);
   for (std::size_t i = 0; i < 2; ++i) claims[i] = {multipliers[i].real(), multipliers[i].imag(), error};
   return claims;
 }

@@ -2,12 +2,22 @@
 
 #include <array>
 #include <complex>
+#include <vector>
 
 #include "certificates/certificate.hpp"
 #include "certificates/recorded_motion.hpp"
 #include "point/point.hpp"
 
 namespace clatter::certificates {
+
+constexpr double of_state = 1e-12;       ///< error of the state at the start over the size of the motion
+constexpr double of_arithmetic = 1e-13;  ///< of each later one: some dozens of roundings
+constexpr double of_chatter = 1e-9;      ///< of the time that a chatter takes
+constexpr double of_multiplier = 1e-9;
+
+/// Whether the errors of a certificate are small beside the size of its motion and the forcing period, so that it says
+/// something.
+[[nodiscard]] bool tells(const Certificate& certificate, double size, double forcing_period);
 
 /// How far the numbers of a motion in double may be off: a small share of its size, as much of it as the motion
 /// stretches. An estimate, not a proof: to prove is up to the verifier.
@@ -24,15 +34,13 @@ class ErrorBounds {
   /// Of x and of v at the start.
   [[nodiscard]] double of_start() const { return of_state * size_ * of_start_; }
   /// Whether the errors of a motion's claims are small beside it, so that they say something.
-  [[nodiscard]] bool tell(const Certificate& certificate) const;
+  [[nodiscard]] bool tell(const Certificate& certificate) const { return tells(certificate, size_, forcing_period_); }
   [[nodiscard]] ClaimedEnd claimed_end(const RecordedMotion& motion) const;
   [[nodiscard]] Claimed claimed_extremum(double x) const;
   /// Of motion that rests both are 0.
-  [[nodiscard]] std::array<ClaimedMultiplier, 2> claimed(const std::array<std::complex<double>, 2>& multipliers) const;
+  [[nodiscard]] std::vector<ClaimedMultiplier> claimed(const std::array<std::complex<double>, 2>& multipliers) const;
 
  private:
-  static constexpr double of_state = 1e-12;  ///< error of the state at the start over the size of the motion
-
   struct StateError {
     double x, v;
   };

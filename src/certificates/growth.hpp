@@ -3,35 +3,67 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-
-#include "motion/perturbation.hpp"
+#include <cstddef>
 
 namespace clatter::certificates {
 
-/// How a motion stretches errors: of the state at its start, and of the rounding that each flight adds on the way. An
-/// error that enters late is stretched by what is left of the motion, though what is before it may have contracted.
-class Growth {
+/// How a motion of so many numbers stretches errors: of the state at its start, and of the rounding that each flight
+/// adds on the way. An error that enters late is stretched by what is left of the motion, though what is before it may
+/// have contracted.
+template <std::size_t count>
+class BasicGrowth {
  public:
+  using Map = std::array<double, count * count>;  ///< by rows
+  using Sizes = std::array<double, count>;
+
   /// A flight and the event before it, with their derivative; it adds rounding of so many units.
-  void pass(const motion::Jacobian<double>& step, double rounding) {
-    const auto& [a, b, c, d] = step;
-    const motion::Jacobian<double> m = derivative_;
-    derivative_ = {a * m[0] + b * m[2], a * m[1] + b * m[3], c * m[0] + d * m[2], c * m[1] + d * m[3]};
-    const auto [xx, xv, vv] = spread_;
-    spread_ = {a * a * xx + 2 * a * b * xv + b * b * vv, a * c * xx + (a * d + b * c) * xv + b * d * vv,
-               c * c * xx + 2 * c * d * xv + d * d * vv};
-    before_ = {std::sqrt(std::max(0.0, spread_[0])), std::sqrt(std::max(0.0, spread_[2]))};
-    spread_[0] += rounding * rounding, spread_[2] += rounding * rounding;
+  void pass(const Map& step, double rounding) {
+    const Map before = derivative_, spread = spread_;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = 0; j < count; ++j) {
+        at(derivative_, i, j) = along(step, i, before, j);
+        at(spread_, i, j) = carried(step, i, j, spread);
+      }
+    for (std::size_t i = 0; i < count; ++i) {
+      before_[i] = std::sqrt(std::max(0.0, at(spread_, i, i)));
+      at(spread_, i, i) += rounding * rounding;
+    }
   }
 
-  [[nodiscard]] const motion::Jacobian<double>& derivative() const { return derivative_; }  ///< from the start
-  /// The rounding of earlier flights as it has grown, in x and in v: the root of the sum of squares.
-  [[nodiscard]] const std::array<double, 2>& rounding() const { return before_; }
+  [[nodiscard]] const Map& derivative() const { return derivative_; }  ///< from the start
+  /// The rounding of earlier flights as it has grown, in each number: the root of the sum of squares.
+  [[nodiscard]] const Sizes& rounding() const { return before_; }
 
  private:
-  motion::Jacobian<double> derivative_{1, 0, 0, 1};
-  std::array<double, 3> spread_{};  ///< covariance: xx, xv, vv
-  std::array<double, 2> before_{};
+  template <class M>
+  [[nodiscard]] static auto& at(M& map, std::size_t i, std::size_t j) {
+    return map[i * count + j];
+  }
+  [[nodiscard]] static Map identity() {
+    Map map{};
+    for (std::size_t i = 0; i < count; ++i) at(map, i, i) = 1;
+    return map;
+  }
+  [[nodiscard]] static double along(const Map& step, std::size_t i, const Map& before, std::size_t j) {
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += at(step, i, k) * at(before, k, j);
+    return sum;
+  }
+  /// An entry of step spread step^T, spread being symmetric.
+  [[nodiscard]] static double carried(const Map& step, std::size_t i, std::size_t j, const Map& spread) {
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      sum += at(step, i, k) * at(step, j, k) * at(spread, k, k);
+      for (std::size_t l = k + 1; l < count; ++l)
+        sum += (at(step, i, k) * at(step, j, l) + at(step, i, l) * at(step, j, k)) * at(spread, k, l);
+    }
+    return sum;
+  }
+
+  Map derivative_ = identity(), spread_{};  ///< the latter a covariance
+  Sizes before_{};
 };
+
+using Growth = BasicGrowth<2>;
 
 }  // namespace clatter::certificates

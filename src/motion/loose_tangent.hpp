@@ -56,6 +56,15 @@ class LooseTangent {
     has_pressed_ = true;
   }
 
+  /// Makes the map that from here on, between an arc and the event at its end, too.
+  void begin_anew() { map_ = identity, exponent_ = 0; }
+
+  [[nodiscard]] LooseJacobian map() const {
+    LooseJacobian map = map_;
+    for (Row& row : map)
+      for (double& entry : row) entry *= std::exp2(exponent_);
+    return map;
+  }
   /// The map without its power of two.
   [[nodiscard]] const LooseJacobian& mantissa() const { return map_; }
   [[nodiscard]] double exponent() const { return exponent_; }  ///< of two, a whole number
@@ -64,6 +73,7 @@ class LooseTangent {
 
  private:
   using Row = std::array<double, 4>;
+  static constexpr LooseJacobian identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
   [[nodiscard]] static Row combined(double a, const Row& one, double b, const Row& other) {
     Row sum;
@@ -86,7 +96,7 @@ class LooseTangent {
   double h_, k_;
   LooseMass loose_;
   WallRule<double> rule_;
-  LooseJacobian map_{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+  LooseJacobian map_ = identity;
   double exponent_ = 0;
   bool has_pressed_ = false;
   double force_ = 0;  ///< on the main mass at x = 0, at the end of the last arc

@@ -8,6 +8,7 @@
 #include "motion/event.hpp"
 #include "motion/loose_tangent.hpp"
 #include "point/problem.hpp"
+#include "scene/displacement_bound.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/passage_observer.hpp"
 #include "stepping/integration.hpp"
@@ -22,8 +23,12 @@ class MotionRecorder {
   template <class A>
   void arc(const A& arc, double begin, double length) {
     watch.arc(arc, begin, length);
-    if (loose) [[unlikely]]
+    if (loose) [[unlikely]] {
       loose->arc(arc, begin, length);
+      if (!keeps_derivatives_) return;
+      const motion::Motion<double> end = arc.at(length);
+      main_ = {end.x, end.v};
+    }
   }
   void rest(const motion::Rest& rest) { add(event_of(rest)), watch.rest(rest); }
   void impact(const motion::Impact& impact) { add(event_of(impact)), watch.impact(impact); }
@@ -46,21 +51,28 @@ class MotionRecorder {
   }
 
   void keep_events() { keeps_events_ = true; }
-  /// Keeps them with the derivative of the motion to each from the one before, the first from here.
+  /// Keeps them with the derivative of the motion to each from the one before, the first from here; of a time on a wall
+  /// to its end.
   void keep_derivatives() { keeps_events_ = keeps_derivatives_ = true, watch.differentiate(); }
 
   steady::PassageObserver watch;
-  std::optional<motion::LooseTangent> loose{};          ///< the derivative with a loose mass, if it is asked for
-  std::vector<motion::Event> events{};                  ///< in order, if they are kept
-  std::vector<motion::Jacobian<double>> derivatives{};  ///< of the state before each of them by that before the last
+  std::optional<motion::LooseTangent> loose{};             ///< the derivative with a loose mass, if it is asked for
+  std::vector<motion::Event> events{};                     ///< in order, if they are kept
+  std::vector<motion::Jacobian<double>> derivatives{};     ///< of the state before each of them by that before the last
+  std::vector<motion::LooseJacobian> loose_derivatives{};  ///< in place of them with a loose mass
+  std::vector<PhasePoint> main_states{};                   ///< with a loose mass: of the main one, there
 
  private:
   void add(const motion::Event& event) {
     if (keeps_events_) events.push_back(event);
-    if (keeps_derivatives_) derivatives.push_back(watch.derivative()), watch.begin_derivative_anew();
+    if (keeps_derivatives_ && loose) [[unlikely]]
+      loose_derivatives.push_back(loose->map()), loose->begin_anew(), main_states.push_back(main_);
+    else if (keeps_derivatives_)
+      derivatives.push_back(watch.derivative()), watch.begin_derivative_anew();
   }
 
   bool keeps_events_ = false, keeps_derivatives_ = false;
+  PhasePoint main_{};  ///< at the end of the last arc
 };
 
 /// The motion of a problem by the exact method, with the effects that it requires, for those who look at a motion

@@ -28,14 +28,15 @@ def certified(output, certificates, *words):
 
 
 def certified_scenes(folder, scenes, time):
-    """Runs scenes in a sweep for each kind of them, and writes the certificates of all into one file."""
+    """Runs scenes, or their keys, in a sweep for each kind of them, and writes the certificates of all into one file."""
     folder, kinds = Path(folder), {}
     for scene in scenes:
-        kinds.setdefault(tuple(keys_of(scene)), []).append(scene)
+        values = scene if isinstance(scene, dict) else keys_of(scene)
+        kinds.setdefault(tuple(values), []).append(values)
     whole = folder / "certificates.jsonl"
     with open(whole, "w", encoding="utf-8") as file:
         for count, (keys, alike) in enumerate(kinds.items()):
-            lists = "".join(f"{key} = {numbers([keys_of(scene)[key] for scene in alike])}\n" for key in keys)
+            lists = "".join(f"{key} = {numbers([values[key] for values in alike])}\n" for key in keys)
             config, output = folder / f"{count}.toml", folder / f"{count}.h5"
             linked = f"[sweep]\n{lists}linked = \"{', '.join(keys)}\"\n"
             config.write_text(f"[scene]\n{linked}[time]\n{time}max_impacts = 20000\n[observe]\nextrema = true\n")

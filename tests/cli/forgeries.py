@@ -16,17 +16,32 @@ def number(certificate, index, name):
     return certificate
 
 
+def speed_in(event):
+    """The name of the velocity that an event claims, if it does: of a loose mass that in its housing."""
+    return next((name for name in ("v", "w") if name in event), None)
+
+
 def contacts(certificate):
-    return [i for i, event in enumerate(certificate["events"]) if "v" in event]
+    return [i for i, event in enumerate(certificate["events"]) if speed_in(event)]
 
 
 def rests(certificate):
-    return [i for i, event in enumerate(certificate["events"]) if event["event"] == "rest"]
+    return [i for i, event in enumerate(certificate["events"]) if event["event"] in ("rest", "press")]
+
+
+def restitution(certificate, event):
+    """That of a rigid stop, or of the walls of a loose mass."""
+    scene = certificate["scene"]
+    return scene.get("loose", scene.get(event["stop"]))["R"]
+
+
+def rest_name(certificate):
+    return "press" if "loose" in certificate["scene"] else "rest"
 
 
 def wrong_speed(certificate):
     for index in contacts(certificate)[:1]:
-        return number(certificate, index, "v")
+        return number(certificate, index, speed_in(certificate["events"][index]))
 
 
 def wrong_time(certificate):
@@ -50,7 +65,8 @@ def contact_put_in(certificate):
 
 def wrong_stop(certificate):
     scene = certificate["scene"]
-    if not ("lower" in scene and "upper" in scene) or ("R" in scene["lower"]) != ("R" in scene["upper"]):
+    housing = scene.get("loose", scene)
+    if not ("lower" in housing and "upper" in housing) or ("R" in housing["lower"]) != ("R" in housing["upper"]):
         return None
     for index in contacts(certificate)[:1]:
         event = certificate["events"][index]
@@ -89,10 +105,10 @@ def rest_that_is_none(certificate):
     for index, event in enumerate(certificate["events"]):
         if event["event"] == "impact":
             until = [event["time"][0] + 1e-3, 1e-9]
-            if certificate["scene"][event["stop"]]["R"] == 0:  # it would rest at once
+            if restitution(certificate, event) == 0:  # it would rest at once
                 continue
             chatter = {"event": "chatter", "stop": event["stop"], "time": event["time"], "until": until}
-            rest = {**chatter, "event": "rest", "time": until, "until": [until[0] + 0.5, 1e-9]}
+            rest = {**chatter, "event": rest_name(certificate), "time": until, "until": [until[0] + 0.5, 1e-9]}
             certificate["events"][index + 1 :] = [chatter, rest]
             return certificate
 
@@ -101,10 +117,10 @@ def rest_where_the_force_pulls(certificate):
     """After an impact that takes all speed."""
     events = certificate["events"]
     for index, event in enumerate(events):
-        if event["event"] == "impact" and certificate["scene"][event["stop"]]["R"] == 0:
-            if index + 1 == len(events) or events[index + 1]["event"] != "rest":
+        if event["event"] == "impact" and restitution(certificate, event) == 0:
+            if index + 1 == len(events) or events[index + 1]["event"] != rest_name(certificate):
                 until = [event["time"][0] + 0.5, 1e-9]
-                rest = {"event": "rest", "stop": event["stop"], "time": event["time"], "until": until}
+                rest = {"event": rest_name(certificate), "stop": event["stop"], "time": event["time"], "until": until}
                 events.insert(index + 1, rest)
                 return certificate
 
@@ -185,7 +201,11 @@ def wrong_symmetry(certificate):
 
 def wrong_start(certificate):
     start = certificate["start"]
-    if certificate["claim"] != "transient" and "x" in start and not rests(certificate):
+    if (
+        certificate["claim"] != "transient"
+        and "x" in start
+        and not any(event["event"] == "rest" for event in certificate["events"])
+    ):
         start["x"] = off(start["x"])
         return certificate
 
@@ -201,8 +221,37 @@ def wrong_restitution(certificate):
         return None
     for event in certificate["events"]:
         if event["event"] == "impact":
-            certificate["scene"][event["stop"]]["R"] = certificate["scene"][event["stop"]]["R"] * 0.999 + 1e-4
+            of = certificate["scene"].get("loose", certificate["scene"].get(event["stop"]))
+            of["R"] = of["R"] * 0.999 + 1e-4
             return certificate
+
+
+def wrong_loose_mass(certificate):
+    if "loose" in certificate["scene"] and contacts(certificate):
+        certificate["scene"]["loose"]["mass"] *= 1.001
+        return certificate
+
+
+def wrong_place_in_housing(certificate):
+    place = certificate.get("end", certificate["start"])
+    if "z" in place and isinstance(place["z"], list):
+        place["z"] = off(place["z"])
+        return certificate
+
+
+def pressed_by_the_other_wall(certificate):
+    """From its place on the other wall the loose mass takes another course."""
+    start, loose = certificate["start"], certificate["scene"].get("loose", {})
+    if "pressed" in start and "lower" in loose and "upper" in loose:
+        start["pressed"] = {"lower": "upper", "upper": "lower"}[start["pressed"]]
+        return certificate
+
+
+def two_multipliers_of_a_press(certificate):
+    """After a press two multipliers are 0, not one."""
+    if "pressed" in certificate["start"] and "multipliers" in certificate:
+        certificate["multipliers"][-1] = [0.5, 0.0, 0.25]
+        return certificate
 
 
 def wrong_parameter(certificate):
@@ -264,6 +313,10 @@ FORGERIES = [
     wrong_start,
     wrong_end,
     wrong_restitution,
+    wrong_loose_mass,
+    wrong_place_in_housing,
+    pressed_by_the_other_wall,
+    two_multipliers_of_a_press,
     wrong_parameter,
     wrong_kind,
     graze_that_is_an_impact,

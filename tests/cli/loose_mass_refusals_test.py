@@ -10,7 +10,7 @@ from command_line import CommandLine
 
 SCENE = "[scene]\nh = 0.02\nf = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_gap = 1.9\nloose_R = 0.6\n"
 MACHINE = '[machine]\nmass = "2 kg"\nstiffness = "8 N/mm"\nforce = "20 N"\nfrequency = "9 Hz"\nloose_mass = "50 g"\n'
-REMEDY = r"expected |leave |name |give |take |set |remove |use |write |certify motions without |did you mean"
+REMEDY = r"expected |leave |name |give |take |set |remove |use |write |did you mean"
 
 
 class Refusals(CommandLine):
@@ -39,13 +39,6 @@ class Refusals(CommandLine):
         asked = '[observe]\nsensitivity = "loose_gap"\n'
         self.assert_told(walls + asked, ("'loose_gap'", "name 'loose_lower' or 'loose_upper'"))
         self.assert_told(f'{SCENE}[observe]\nsensitivity = "loose_x0"\n', ("'loose_x0'", "a start"))
-
-    def test_commands_that_do_not_know_it(self):
-        self.write("a.toml", SCENE + "[observe]\nextrema = true\n")
-        self.assertEqual(self.clatter("run", "a.toml", "-o", "a.h5", "-q").returncode, 0)
-        command = ("certify", "a.h5", "-o", "b.jsonl")
-        self.assert_refused(2, "loose_mass", *command)
-        self.assertRegex(self.clatter(*command).stderr, REMEDY)
 
     def test_what_the_main_mass_does_not_have_beside_it(self):
         beside = {"xs": "2", "stop_lower": "-3", "stop_upper": "3", "friction": "0.1", "friction_static": "0.1"}

@@ -22,6 +22,23 @@ def in_scene(**values):
     return {**RIGHT, "scene": {**RIGHT["scene"], **values}}
 
 
+LOOSE = {"mass": 0.1, "R": 0.6, "load": 0, "lower": {"position": -0.4}, "upper": {"position": 0.4}}
+
+
+def with_loose_mass(loose, **changes):
+    """The right one with a loose mass in place of its stop, and other changes."""
+    scene = {key: value for key, value in RIGHT["scene"].items() if key != "lower"}
+    return {**RIGHT, "scene": {**scene, "loose": loose}, **changes}
+
+
+HOUSED = {
+    "start": {"time": 0, "x": 0, "v": 0, "z": 0, "w": 0},
+    "end": {**RIGHT["end"], "z": [0, 1], "w": [0, 1]},
+}
+PERIOD = {"claim": "periodic", "periods": 1}
+PRESS = {"event": "press", "stop": "lower", "time": [0, 1], "until": [1, 1]}
+
+
 MALFORMED = [  # a line, and the place and how to fix it that are told
     ("{", "is no JSON .*; write one object a line"),
     ('{"a":' * 100000, "nests more than"),
@@ -61,4 +78,44 @@ MALFORMED = [  # a line, and the place and how to fix it that are told
     ({**RIGHT, "end": {"time": 0, "x": [0, 1], "v": [0, 1]}}, "end: is not after the start; give a later time"),
     ({**RIGHT, "x_max": [0, -1]}, r"x_max\[1\]: is -1; it must be at least 0"),
     ({**RIGHT, "x_max": 0}, r"x_max: is no array; write"),
+    (in_scene(loose=LOOSE), "scene.lower: is given beside a loose mass; leave it out"),
+    (with_loose_mass({**LOOSE, "mass": 0}), "scene.loose.mass: is 0; it must be above 0"),
+    (with_loose_mass({**LOOSE, "R": -1}), "scene.loose.R: is -1; it must be at least 0 and at most 1"),
+    (with_loose_mass({"mass": 1, "R": 1, "load": 0}), "scene.loose: has no walls; give lower, upper or both"),
+    (with_loose_mass({**LOOSE, "lower": {"position": 1}}), "scene.loose: has its lower wall above the upper one; exch"),
+    (with_loose_mass(LOOSE), "start.z: is missing; add it"),
+    (with_loose_mass(LOOSE, **{**HOUSED, "end": RIGHT["end"]}), "end.z: is missing; add it"),
+    (
+        {**with_loose_mass(LOOSE), "claim": "special"},
+        "claim: is special beside a loose mass; claim transient or periodic motion",
+    ),
+    (
+        with_loose_mass(LOOSE, **HOUSED, events=[{**PRESS, "event": "rest"}]),
+        r"events\[0\]: is a rest beside a loose mass; write impact, chatter or press",
+    ),
+    (
+        with_loose_mass({**LOOSE, "lower": None}, **HOUSED, events=[PRESS]),
+        "scene.loose.lower: is no object; write",
+    ),
+    (
+        with_loose_mass({key: LOOSE[key] for key in LOOSE if key != "lower"}, **HOUSED, events=[PRESS]),
+        r"events\[0\]: is an event of a wall; the housing has none there",
+    ),
+    ({**RIGHT, "events": [PRESS]}, r"events\[0\]: is a press; the scene has no loose mass; give it"),
+    (
+        with_loose_mass(
+            {key: LOOSE[key] for key in LOOSE if key != "upper"},
+            **PERIOD,
+            start={"time": 0, "x": [0, 1], "v": [0, 1], "pressed": "upper"}
+        ),
+        "start.pressed: is a wall that isn't there; give the housing that wall, or z and w",
+    ),
+    (
+        with_loose_mass(LOOSE, **PERIOD, start={"time": 0, "released": "lower"}),
+        "start.released: is given beside a loose mass; give x and v",
+    ),
+    (
+        with_loose_mass(LOOSE, **PERIOD, multipliers=[[0, 0, 1], [0, 0, 1]]),
+        "multipliers: has not four items; write",
+    ),
 ]

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cmath>
+
+#include "certificates/certified_point.hpp"
+#include "observables/impact_word.hpp"
+
+namespace clatter::certificates {
+
+/// The claims of a motion that begins at a time with the start of its problem, whose phase is then that of time 0.
+template <class Motion, class Bounds>
+Certificate claims_of(const point::Problem& problem, const Motion& motion, const Bounds& bounds,
+                      const point::PointResult& result) {
+  Certificate certificate{.scene = problem};
+  for (const auto& event : motion.events)
+    certificate.events.push_back(
+        bounds.claimed(event, certificate.events.empty() ? nullptr : &certificate.events.back()));
+  certificate.x_min = bounds.claimed_extremum(result.x_min), certificate.x_max = bounds.claimed_extremum(result.x_max);
+  return certificate;
+}
+
+/// Drops a certificate whose errors are so large that it says nothing.
+template <class Bounds>
+void keep_if_known(CertifiedPoint& point, const Bounds& bounds) {
+  point.without = bounds.tell(*point.certificate) ? Without::none : Without::rounding;
+  if (point.without != Without::none) point.certificate.reset();
+}
+
+/// What is claimed of a period besides its multipliers.
+inline ClaimedPeriod period_of_result(const point::PointResult& result) {
+  ClaimedPeriod period{.periods = static_cast<std::size_t>(std::llround(result.observed_turns))};
+  if (result.impact_word.size() <= observables::ImpactWord::longest) period.word = result.impact_word;
+  if (!std::isnan(result.symmetric)) period.symmetric = result.symmetric == 1.0;
+  return period;
+}
+
+}  // namespace clatter::certificates

@@ -1,0 +1,96 @@
+#include "certificates/housing_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "motion/walls.hpp"
+#include "point/exact_motion.hpp"
+
+namespace clatter::certificates {
+namespace {
+
+using Kind = motion::Event::Kind;
+
+/// A map of changes of (x, x', y, y') as one of (x, x', z, z'), with z = y - x.
+HousingGrowth::Map in_housing(const motion::LooseJacobian& map) {
+  HousingGrowth::Map changed{};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) {
+      const auto entry = [&](std::size_t column) {
+        return i < 2 ? map[i][column] : map[i][column] - map[i - 2][column];
+      };
+      changed[4 * i + j] = j < 2 ? entry(j) + entry(j + 2) : entry(j);
+    }
+  return changed;
+}
+
+/// The events of a record with their derivatives; a press that sections cut is one.
+std::vector<HousingEvent> events_of(const point::MotionRecorder& recorder, HousingGrowth& growth) {
+  constexpr double same_time = 1e-9;
+  std::vector<HousingEvent> events;
+  double since = 0.0;
+  for (std::size_t i = 0; i < recorder.events.size(); ++i) {
+    const motion::Event& event = recorder.events[i];
+    growth.pass(in_housing(recorder.loose_derivatives[i]), std::min(1.0, event.end() - since));
+    since = event.end();
+    const bool goes_on = event.kind == Kind::rest && !events.empty() && events.back().kind == Kind::rest &&
+                         events.back().side == event.side &&
+                         event.time - events.back().end() <= same_time * (1 + event.time);
+    HousingEvent recorded{event, growth.derivative(), growth.rounding(), recorder.main_states[i]};
+    if (goes_on) {
+      recorded.time = events.back().time, recorded.length = event.end() - recorded.time;
+      events.pop_back();
+    }
+    events.push_back(recorded);
+  }
+  return events;
+}
+
+HousingState state_of(const motion::State<double>& state, const LooseMass& loose) {
+  const auto [z, w] = motion::place_in_housing(state, loose);
+  return {state.x, state.v, z, w, state.loose.pressed ? state.loose.wall : Side::none};
+}
+
+}  // namespace
+
+std::vector<HousingEvent> with_chatters(std::vector<HousingEvent> events) {
+  constexpr double slow = 1e-3;
+  std::vector<HousingEvent> list;
+  for (const HousingEvent& event : events) {
+    std::size_t first = list.size();
+    double fastest = 0.0;
+    while (event.kind == Kind::rest && first > 0 && list[first - 1].kind == Kind::impact &&
+           list[first - 1].side == event.side)
+      fastest = std::max(fastest, list[--first].speed());
+    std::size_t last = first;
+    while (last < list.size() && !(std::abs(list[last].after) < slow * fastest)) ++last;
+    const bool chatters = last < list.size() && list[last].after != 0;
+    if (chatters) {
+      list.resize(last + 1);
+      HousingEvent chatter = list[last];
+      chatter.kind = Kind::chatter, chatter.length = event.time - chatter.time;
+      list.push_back(chatter);
+    }
+    list.push_back(event);
+  }
+  return list;
+}
+
+std::optional<HousingMotion> recorded_in_housing(const point::Problem& problem, double turns) {
+  const auto motion = point::ExactMotion::of(problem);
+  point::MotionRecorder recorder(motion->stops());
+  recorder.loose.emplace(problem.oscillator, problem.loose);
+  recorder.keep_derivatives();
+  motion::State<double> state = motion->start();
+  if (motion->run_for(state, turns, recorder) != stepping::Outcome::completed) return std::nullopt;
+  HousingGrowth growth;
+  HousingMotion found;
+  found.events = with_chatters(events_of(recorder, growth));
+  growth.pass(in_housing(recorder.loose->map()), 0.0);
+  found.end = state_of(state, problem.loose), found.duration = turns * motion->period();
+  found.derivative = growth.derivative(), found.rounding = growth.rounding();
+  return found;
+}
+
+}  // namespace clatter::certificates

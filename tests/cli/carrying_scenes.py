@@ -1,0 +1,57 @@
+"""Random scenes of a main mass that carries a loose one, as keys of [scene]: every effect, also at its end."""
+
+import math
+import random
+
+from random_scenes import logarithmic
+
+
+def walls(draw, keys):
+    """Walls as far from the middle on both sides, unequal ones, or one."""
+    near, far, kind = logarithmic(draw, 1e-2, 3), logarithmic(draw, 1e-2, 3), draw.random()
+    if kind < 0.45:
+        keys["loose_gap"] = near
+        return -near, near
+    low, high = (-near, far) if kind < 0.8 else (near, near + far)
+    if kind > 0.9:
+        low, high = (low, math.inf) if draw.random() < 0.5 else (-math.inf, high)
+    keys |= {key: at for key, at in (("loose_lower", low), ("loose_upper", high)) if math.isfinite(at)}
+    return low, high
+
+
+def loose_start(draw, keys, low, high):
+    """Between the walls or on one of them, at rest in the housing or not."""
+    inside = max(low, high - 2 if math.isfinite(high) else low), min(high, low + 2 if math.isfinite(low) else high)
+    at_wall = [wall for wall in (low, high) if math.isfinite(wall)]
+    keys["loose_x0"] = draw.choice([draw.uniform(*inside)] * 3 + at_wall)
+    keys["loose_v0"] = draw.choice([0.0, draw.uniform(-1, 1), draw.uniform(-1, 1)])
+
+
+def carrying(draw):
+    """A load or the only wall brings the loose mass back: it chatters, and is pressed and let go."""
+    keys = {
+        "h": draw.choice([0.0, logarithmic(draw, 1e-3, 0.5), logarithmic(draw, 0.02, 0.3), draw.uniform(1, 2)]),
+        "f": draw.choice([-1, 1]) * logarithmic(draw, 0.05, 3),
+        "nu": logarithmic(draw, 0.2, 5),
+        "phase": draw.choice([0.0, draw.uniform(-3, 3)]),
+        "load": draw.choice([0.0, 0.0, draw.uniform(-1, 1)]),
+        "stiffness": draw.choice([1.0, 1.0, logarithmic(draw, 0.05, 20)]),
+        "x0": draw.uniform(-1, 1),
+        "v0": draw.choice([0.0, draw.uniform(-1, 1)]),
+        "loose_mass": draw.choice([logarithmic(draw, 1e-3, 0.1), logarithmic(draw, 0.1, 3)]),
+        "loose_R": draw.choice([0.0, 1.0, draw.uniform(0.05, 0.6), draw.uniform(0.3, 0.95), draw.uniform(0.3, 0.95)]),
+    }
+    low, high = walls(draw, keys)
+    load = draw.choice([0.0, 0.0, draw.uniform(-1.5, 1.5)])
+    if not math.isfinite(low) or not math.isfinite(high):
+        load = logarithmic(draw, 0.05, 1.5) * (1 if math.isfinite(high) else -1)
+    keys["loose_load"] = load
+    loose_start(draw, keys, low, high)
+    if draw.random() < 0.15:
+        keys["base_amplitude"] = draw.uniform(0.1, 0.5)
+    return keys
+
+
+def carrying_scenes(count, seed):
+    draw = random.Random(f"loose {seed}")
+    return [carrying(draw) for _ in range(count)]
