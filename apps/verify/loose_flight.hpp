@@ -8,20 +8,28 @@ namespace verify {
 class FlightInHousing {
  public:
   FlightInHousing(const Flow::Flight& main, const Ball& z, const Ball& w, const Ball& load)
-      : main_(main), load_(load), z_(z) {
-    const Flow::Instant start = main_.at(Ball(0));
-    x_ = start.x, y_speed_ = w + start.v;
-  }
+      : main_(main), load_(load), start_(main.at(Ball(0))), z_(z), w_(w) {}
+
   /// z and its derivatives.
   [[nodiscard]] Flow::Instant at(const Ball& s) const {
     const Flow::Instant main = main_.at(s);
-    return {z_ + (y_speed_ + load_ * s / Ball(2)) * s - (main.x - x_), y_speed_ + load_ * s - main.v, load_ - main.a,
-            -main.j, -main.d4};
+    const Ball way = (w_ + start_.v + load_ * s / Ball(2)) * s - (main.x - start_.x);
+    return {z_ + (abs(s) < Ball(0.05) ? way.within(short_way(s)) : way), w_ + load_ * s - (main.v - start_.v),
+            load_ - main.a, -main.j, -main.d4};
   }
 
  private:
+  /// The way by Taylor's theorem: over a short time that of the main mass, whose place is known in bounds wider than
+  /// the way, doesn't count.
+  [[nodiscard]] Ball short_way(const Ball& s) const {
+    const Ball last = main_.at(Ball::hull(Ball(0), s)).d4;
+    return s * (w_ + s / Ball(2) * (load_ - start_.a - s / Ball(3) * (start_.j + s / Ball(4) * last)));
+  }
+
   Flow::Flight main_;
-  Ball load_, z_, y_speed_, x_;  ///< x of the main mass at the start
+  Ball load_;
+  Flow::Instant start_;  ///< of the main mass
+  Ball z_, w_;
 };
 
 /// The acceleration load - x'' with which both masses as one press the loose one on a wall: on the upper one if it is

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "loose_motion.hpp"
 
@@ -121,9 +122,11 @@ LooseMotion::Chatter::Change LooseMotion::Chatter::grown(const FirstChange& firs
 /// A bound of the change of the time integral of zeta.
 Ball LooseMotion::Chatter::area(const FirstChange& first) const {
   Change change{Ball(0), Ball(0), Ball(0)};
-  for (int i = 0; i < 16; ++i) change = grown(first, change);
-  const auto doubled = [](const Ball& x) { return (Ball(2) * x + Ball(1e-30)).upper(); };
-  change = {doubled(change.late), doubled(change.speeds), doubled(change.push)};
+  const auto more = [](const Ball& x) { return (Ball(2) * x + Ball(1e-100)).upper(); };
+  for (int i = 0; i < 16; ++i) {  // any bounds are right that are above those that they lead to
+    change = grown(first, change);
+    change = {more(change.late), more(change.speeds), more(change.push)};
+  }
   const Change next = grown(first, change);
   if (!(next.late < change.late && next.speeds < change.speeds && next.push < change.push))
     throw Undecided("how a chatter depends on its start");
@@ -131,7 +134,7 @@ Ball LooseMotion::Chatter::area(const FirstChange& first) const {
 }
 
 Event LooseMotion::finish_chatter(double accuracy, const Ball& latest, double height) {
-  constexpr double narrow = 1e-11;  // of its derivative
+  const double narrow = std::max(std::exp2(-static_cast<double>(bits) / 3), 1e-26);  // of its derivative
   const Side side = wall_;
   const Ball begin = state_of(set_.hull()).time, far = Ball(100) * scene_.period();
   if (pressed_) return {Kind::press, side, press_begin_, Ball(0), press_begin_};
