@@ -40,47 +40,83 @@ Ball end_of(const Certificate& certificate, const Scene& scene, const Ball& part
   return certificate.start_time.ball() + length_of(scene, certificate.periods) / parts;
 }
 
+/// The map of a period of the claimed events.
+class PeriodMap {
+ public:
+  PeriodMap(const Certificate& certificate, const Scene& scene, OrbitInHousing& orbit)
+      : certificate_(certificate), scene_(scene), orbit_(orbit) {}
+
+  /// From (x, x', z, z') in flight.
+  Passage<Four, FourByFour> operator()(const Four& middle, const Four& half_width) const {
+    follow(middle, half_width);
+    return {orbit_.motion->centre(), orbit_.motion->derivative()};
+  }
+  /// From (x, x') while a wall presses the loose mass.
+  Passage<Vector, Matrix> operator()(const Vector& middle, const Vector& half_width) const {
+    follow({{middle.x, middle.y, Ball(0), Ball(0)}}, {{half_width.x, half_width.y, Ball(0), Ball(0)}});
+    const Four image = orbit_.motion->centre();
+    return {{image[0], image[1]}, of_main(orbit_.motion->derivative())};
+  }
+
+ private:
+  void follow(const Four& middle, const Four& width) const {
+    LooseMotion& motion = orbit_.motion.emplace(scene_, start_from(certificate_, middle), width);
+    if (certificate_.pressed && motion.pressing().is_negative())
+      throw Refuted("start, pressed: the wall doesn't press the loose mass");
+    Course course(certificate_, motion, end_of(certificate_, scene_, Ball(1)));
+    course.run();
+    if (certificate_.pressed && !(motion.is_resting() && motion.wall() == *certificate_.pressed))
+      throw Refuted("the motion doesn't end with the press that it starts with");
+    orbit_.events = course.events();
+  }
+
+  const Certificate& certificate_;
+  const Scene& scene_;
+  OrbitInHousing& orbit_;
+};
+
+Four claimed_errors(const Certificate& certificate) {
+  return {{certificate.start_x.error.ball(), certificate.start_v.error.ball(), certificate.start_z.error.ball(),
+           certificate.start_w.error.ball()}};
+}
+
 /// The periodic motion near the claimed start.
 OrbitInHousing orbit_near(const Certificate& certificate, const Scene& scene) {
   OrbitInHousing orbit;
-  const auto follow = [&](const Four& middle, const Four& width) {
-    orbit.motion.emplace(scene, start_from(certificate, middle), width);
-    if (certificate.pressed && orbit.motion->pressing().is_negative())
-      throw Refuted("start, pressed: the wall doesn't press the loose mass");
-    Course course(certificate, *orbit.motion, end_of(certificate, scene, Ball(1)));
-    course.run();
-    if (certificate.pressed && !(orbit.motion->is_resting() && orbit.motion->wall() == *certificate.pressed))
-      throw Refuted("the motion doesn't end with the press that it starts with");
-    orbit.events = course.events();
-  };
-  const Four claimed{{certificate.start_x.value.ball(), certificate.start_v.value.ball(),
-                      certificate.start_z.value.ball(), certificate.start_w.value.ball()}};
+  const PeriodMap map(certificate, scene, orbit);
+  const Start start = certificate.start_in_balls();
   const Ball part(0.125);
-  const Four width = Four{{certificate.start_x.error.ball(), certificate.start_v.error.ball(),
-                           certificate.start_z.error.ball(), certificate.start_w.error.ball()}}
-                         .each([&](const Ball& error) { return (part * error).middle(); });
-  if (certificate.pressed) {
-    const auto pass = [&](const Vector& middle, const Vector& half) -> Passage<Vector, Matrix> {
-      follow({{middle.x, middle.y, Ball(0), Ball(0)}}, {{half.x, half.y, Ball(0), Ball(0)}});
-      const Four image = orbit.motion->centre();
-      return {{image[0], image[1]}, of_main(orbit.motion->derivative())};
-    };
-    orbit.pressed = fixed_point(Vector{claimed[0].middle(), claimed[1].middle()}, Vector{width[0], width[1]}, pass);
-  } else {
-    const auto pass = [&](const Four& middle, const Four& half) -> Passage<Four, FourByFour> {
-      follow(middle, half);
-      return {orbit.motion->centre(), orbit.motion->derivative()};
-    };
-    orbit.in_flight = fixed_point(claimed.middle(), width, pass);
-  }
+  const Four width = claimed_errors(certificate).each([&](const Ball& error) { return (part * error).middle(); });
+  if (certificate.pressed)
+    orbit.pressed = fixed_point(Vector{start.x, start.v}.middle(), Vector{width[0], width[1]}, map);
+  else
+    orbit.in_flight = fixed_point(Four{{start.x, start.v, start.z, start.w}}.middle(), width, map);
   return orbit;
+}
+
+/// Whether a motion from a state is the periodic one if it is periodic, too: both are in a box that has only one.
+bool is_alone_with(const Certificate& certificate, const Scene& scene, const OrbitInHousing& orbit, const Four& state) {
+  if (orbit.holds(state)) return true;
+  OrbitInHousing wider;
+  const PeriodMap map(certificate, scene, wider);
+  const auto in_wider = [&](const auto& box, const auto& there, const Ball& times) {
+    auto width = box.width.each([&](const Ball& w) { return (times * w).upper(); });
+    const auto found = krawczyk(box.start, width, map(box.start, width));
+    return found && found->holds(there);
+  };
+  for (const int times : {16, 256, 4096, 65536}) try {
+      if (orbit.in_flight ? in_wider(*orbit.in_flight, state, Ball(times))
+                          : in_wider(*orbit.pressed, Vector{state[0], state[1]}, Ball(times)))
+        return true;
+    } catch (const Undecided&) {
+      return false;
+    }
+  return false;
 }
 
 OrbitInHousing claimed_orbit_in_housing(const Certificate& certificate, const Scene& scene) {
   const auto require_one = [&] {
-    const Four errors{{certificate.start_x.error.ball(), certificate.start_v.error.ball(),
-                       certificate.start_z.error.ball(), certificate.start_w.error.ball()}};
-    LooseMotion motion(scene, certificate.start_in_balls(), errors);
+    LooseMotion motion(scene, certificate.start_in_balls(), claimed_errors(certificate));
     require_possible(certificate, motion, end_of(certificate, scene, Ball(1)));
   };
   try {
@@ -128,7 +164,8 @@ bool returns_mirrored(const Certificate& certificate, const Scene& scene, const 
   if (certificate.pressed && !(motion.is_resting() && motion.wall() == opposite(*certificate.pressed))) return false;
   const Four there = motion.state();
   const Ball walls = scene.loose->wall(Side::lower) + scene.loose->wall(Side::upper);
-  return orbit.holds({{Ball(2) * centre - there[0], -there[1], walls - there[2], -there[3]}});
+  return is_alone_with(certificate, scene, orbit,
+                       {{Ball(2) * centre - there[0], -there[1], walls - there[2], -there[3]}});
 }
 
 /// The four multipliers; of motion that starts with a press two are 0.
@@ -159,7 +196,8 @@ void check_in_housing(const Certificate& certificate, const Scene& scene, Report
     Certificate shorter = part_of(certificate, scene, orbit.events, static_cast<int>(parts));
     shorter.periods /= parts;
     const auto [start, width] = orbit_near(shorter, scene).start();
-    return orbit.holds(start + width.each([](const Ball& w) { return Ball::around_zero(w); }));
+    return is_alone_with(certificate, scene, orbit,
+                         start + width.each([](const Ball& w) { return Ball::around_zero(w); }));
   };
   check_smallest_period(certificate, scene, events, repeats_after, report);
   const auto is_mirrored = [&](const Ball& centre) { return returns_mirrored(certificate, scene, orbit, centre); };
