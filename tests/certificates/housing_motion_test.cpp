@@ -38,8 +38,8 @@ TEST(HousingEvents, a_press_after_an_impact_without_a_rebound_or_after_none_has_
 /// A mass of 0.3 thrown about by a housing with one wall, onto which its own load brings it back.
 point::Problem thrown() {
   point::Problem problem;
-  problem.oscillator = {.damping = 0.1, .forcing = 1.0, .frequency = 0.8};
-  problem.loose = {.ratio = 0.3, .lower = -0.5, .restitution = 0.4, .load = -0.6, .place = 0.1};
+  problem.oscillator = {.damping = 0.5, .forcing = 1.0, .frequency = 0.8};
+  problem.loose = {.ratio = 0.1, .lower = -0.5, .restitution = 0.2, .load = -0.6, .place = 0.1};
   return problem;
 }
 
