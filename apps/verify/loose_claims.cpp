@@ -40,6 +40,11 @@ Ball end_of(const Certificate& certificate, const Scene& scene, const Ball& part
   return certificate.start_time.ball() + length_of(scene, certificate.periods) / parts;
 }
 
+void require_press(const Certificate& certificate, const LooseMotion& motion) {
+  if (certificate.pressed && motion.pressing().is_negative())
+    throw Refuted("start, pressed: the wall doesn't press the loose mass");
+}
+
 /// The map of a period of the claimed events.
 class PeriodMap {
  public:
@@ -61,8 +66,7 @@ class PeriodMap {
  private:
   void follow(const Four& middle, const Four& width) const {
     LooseMotion& motion = orbit_.motion.emplace(scene_, start_from(certificate_, middle), width);
-    if (certificate_.pressed && motion.pressing().is_negative())
-      throw Refuted("start, pressed: the wall doesn't press the loose mass");
+    require_press(certificate_, motion);
     Course course(certificate_, motion, end_of(certificate_, scene_, Ball(1)));
     course.run();
     if (certificate_.pressed && !(motion.is_resting() && motion.wall() == *certificate_.pressed))
@@ -117,6 +121,7 @@ bool is_alone_with(const Certificate& certificate, const Scene& scene, const Orb
 OrbitInHousing claimed_orbit_in_housing(const Certificate& certificate, const Scene& scene) {
   const auto require_one = [&] {
     LooseMotion motion(scene, certificate.start_in_balls(), claimed_errors(certificate));
+    require_press(certificate, motion);
     require_possible(certificate, motion, end_of(certificate, scene, Ball(1)));
   };
   try {

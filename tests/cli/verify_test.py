@@ -96,7 +96,7 @@ f = 1.0
 loose_mass = 0.3
 loose_gap = 0.6
 [sweep]
-nu = [0.5, 0.8, 1.7]
+nu = [0.5, 0.8]
 loose_R = [0, 0.4, 0.8]
 """
 
