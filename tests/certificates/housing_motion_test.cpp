@@ -17,7 +17,8 @@ HousingEvent press(Side side, double time, double length) { return {{Kind::rest,
 TEST(HousingEvents, impacts_a_thousand_times_slower_than_the_first_are_one_chatter) {
   std::vector<HousingEvent> events;
   double time = 1.0, speed = 0.5;
-  for (int i = 0; i < 20; ++i, time += speed, speed /= 4) events.push_back(impact(Side::upper, time, speed, -speed / 4));
+  for (int i = 0; i < 20; ++i, time += speed, speed /= 4)
+    events.push_back(impact(Side::upper, time, speed, -speed / 4));
   events.push_back(press(Side::upper, time, 0.5));
   const auto joined = with_chatters(events);
   ASSERT_EQ(joined.size(), 7U);  // 0.5 4^-5 is the first below 0.5/1000
