@@ -21,9 +21,11 @@ using branches::StartProblem;
 using point::Problem;
 
 /// The problem of a state at a phase of the shaking, in the frame of what is shaken.
-Problem problem_from(const StartProblem& start, const FollowedScene& scene, const PhasePoint& state, double phase) {
+Problem problem_from(const StartProblem& start, const FollowedScene& scene, const attractors::SectionState& state,
+                     double phase) {
   Problem problem = branches::with_scene(start, scene);
   problem.start = {state.x, state.v, phase};
+  if (has_loose_mass(scene.loose)) problem.loose.place = state.z, problem.loose.velocity = state.w;
   sweep::enter_shaken_frame(problem);
   return problem;
 }
@@ -126,15 +128,16 @@ constexpr double of_special = 1e-12;  ///< error over the size, where the place 
 }  // namespace
 
 CertifiedPoint certified(const BranchPoint& point, const StartProblem& start) {
-  const PhasePoint state = branches::state_at_phase_zero(point.scene, point.orbit);
-  const observables::Extrema::Values range = branches::extrema(point.scene, point.orbit);
+  const attractors::SectionState state = branches::state_at_phase_zero(point.scene, point.orbit);
+  const observables::Extrema::Values range = branches::extrema_as_computed(point.scene, point.orbit);
   const Stops rigid = rigid_ones(point.scene.stops);
   const Problem problem = problem_from(start, point.scene, state, 0.0);
   point::PointResult result{};
   result.status = steady::Status::periodic, result.observed_turns = point.orbit.period_ratio();
   static_cast<Start&>(result.end) = problem.start;
+  result.end.loose_place = state.z, result.end.loose_velocity = state.w;
+  static_cast<observables::Extrema::Values&>(result) = range;
   result.x_min = std::max(range.x_min, rigid.lower), result.x_max = std::min(range.x_max, rigid.upper);
-  result.v_min = range.v_min, result.v_max = range.v_max;
   std::ranges::copy(point.multiplier_re, result.multiplier_re.begin());
   std::ranges::copy(point.multiplier_im, result.multiplier_im.begin());
   result.impact_word = point.orbit.word();
@@ -150,7 +153,7 @@ CertifiedPoint certified(const SpecialPoint& special, Parameter along, const Sta
   const auto graze = grazing(special);
   const FollowedScene& scene = special.at.scene;
   const Orbit& kept = special.at.orbit;
-  if (!kind || kept.rests() || has_friction(scene.friction) ||
+  if (!kind || kept.rests() || has_friction(scene.friction) || has_loose_mass(scene.loose) ||
       (special.kind == SpecialKind::graze) != graze.has_value())
     return found;
   const Orbit orbit = graze ? kept.without(*graze) : kept;

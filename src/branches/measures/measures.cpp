@@ -82,11 +82,12 @@ SectionState state_on(const motion::RelativeArc<double, E>& arc, double begin, d
   return {main.x + frame->displacement(theta), main.v + frame->velocity(theta), m.x, m.v};
 }
 
-observables::Extrema::Values extrema_in_housing(const FollowedScene& scene, const Orbit& whole) {
+observables::Extrema::Values extrema_in_housing(const FollowedScene& scene, const Orbit& whole,
+                                                const std::optional<FrameMotion>& frame) {
   // of a span that begins at phase 0 and ends with the first impact, where the main mass has this state
   const OrbitImpact& first = whole.impacts.at(0);
   const observables::ObservedSpan span{
-      .scene = scene, .turns = first.phase / (2 * std::numbers::pi), .frame = frame_of_results(scene)};
+      .scene = scene, .turns = first.phase / (2 * std::numbers::pi), .frame = frame};
   observables::Extrema::Observer extrema({}, span);
   each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
     const double since = begin / arc.constants().nu;
@@ -163,8 +164,13 @@ SectionState state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit)
 }
 
 observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& orbit) {
+  if (has_loose_mass(scene.loose)) return extrema_in_housing(scene, orbit.whole(), frame_of_results(scene));
+  return extrema_as_computed(scene, orbit);
+}
+
+observables::Extrema::Values extrema_as_computed(const FollowedScene& scene, const Orbit& orbit) {
   const Orbit whole = orbit.whole();
-  if (has_loose_mass(scene.loose)) return extrema_in_housing(scene, whole);
+  if (has_loose_mass(scene.loose)) return extrema_in_housing(scene, whole, std::nullopt);
   observables::Extrema::Observer extrema;
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) { extrema.arc(arc, begin, length); });
   const SceneNumbers<double> p = numbers_of<double>(scene);
