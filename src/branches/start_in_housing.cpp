@@ -1,7 +1,6 @@
 #include "branches/start_in_housing.hpp"
 
 #include "attractors/periodic_motion.hpp"
-#include "branches/equations/flight.hpp"
 #include "branches/equations/housing_flight.hpp"
 
 namespace clatter::branches {
@@ -9,7 +8,7 @@ namespace {
 
 /// Gives each impact place and velocity of the main mass before it, which moves alone from impact to impact.
 void add_main_mass(const FollowedScene& scene, const attractors::SectionState& from, double phase, Orbit& orbit) {
-  with_arcs(scene, [&]<Effects E>() {
+  with_arcs_of_main(scene, [&]<Effects E>() {
     const HousingFlights<double, E> flights{numbers_of<double>(scene)};
     const double nu = scene.oscillator.frequency, middle = flights.parameters().middle();
     double place = from.x - middle, v = from.v;

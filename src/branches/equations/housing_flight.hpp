@@ -3,13 +3,22 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "branches/equations/orbit.hpp"
 #include "branches/followed_scene.hpp"
 #include "motion/relative_arc.hpp"
 #include "motion/walls.hpp"
+#include "scene/smooth_effects.hpp"
 
 namespace clatter::branches {
+
+/// Calls `function.operator()<E>()` with the effects of the arcs of a main mass: those of any stiffness, which have
+/// derivatives by it, too.
+template <class Function>
+decltype(auto) with_arcs_of_main(const Scene& scene, Function&& function) {
+  return with_smooth_effects<true>(oscillator_in_frame(scene), std::forward<Function>(function));
+}
 
 /// An impact of a loose mass on a wall of its housing: its phase (rad) and what both masses do before it.
 template <class Number>

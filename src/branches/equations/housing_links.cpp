@@ -1,10 +1,9 @@
 #include "branches/equations/housing_links.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "branches/equations/flight.hpp"
 #include "branches/equations/housing_flight.hpp"
 #include "math/dual.hpp"
 #include "observables/multipliers.hpp"
@@ -43,10 +42,6 @@ SceneNumbers<Number> numbers_along(const FollowedScene& scene, const std::vector
   });
 }
 
-bool stiffness_varies(const FollowedScene& scene, const std::vector<OrbitEquations::Axis>& axes) {
-  return std::ranges::any_of(axes, [&](const auto& axis) { return varies_stiffness(scene, axis.parameter); });
-}
-
 /// Whether the flight after impact i ends in the mirror image of the first one.
 bool is_mirrored(const Orbit& orbit, std::size_t i) { return orbit.mirrored && i + 1 == orbit.size(); }
 
@@ -79,16 +74,23 @@ Eigen::MatrixX<Number> changes_of(const std::vector<HousingLink>& links, Number 
   return equations;
 }
 
-/// The unit vector that these equations shorten most, and into which direction.
+/// The least singular value of equations, with its unit vectors: they take `right` to `size` times `left`.
 struct LeastChange {
   double size;
   Eigen::VectorXd left, right;
 };
-LeastChange least_change(const std::vector<HousingLink>& links, int multiplier, double speed_unit) {
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(changes_of<double>(links, multiplier, speed_unit),
-                                           Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Index last = svd.singularValues().size() - 1;
-  return {svd.singularValues()[last], svd.matrixU().col(last), svd.matrixV().col(last)};
+/// By inverse iteration, which converges at once where the value is small.
+LeastChange least_change(const Eigen::MatrixXd& equations) {
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(equations);
+  LeastChange found{0.0, Eigen::VectorXd::Ones(equations.rows()).normalized(), {}};
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    found.right = lu.solve(found.left).normalized();
+    const Eigen::VectorXd left = lu.transpose().solve(found.right);
+    const double before = found.size;
+    found.size = 1 / left.norm(), found.left = left * found.size;
+    if (std::abs(found.size - before) <= 1e-15 * found.size) break;
+  }
+  return found;
 }
 
 /// The flight of two impacts on numbers that carry derivatives, and the change of both in one direction.
@@ -121,13 +123,13 @@ std::vector<HousingLink> housing_links(const FollowedScene& scene, const Orbit& 
       links.push_back(link);
     }
   };
-  with_arcs(scene, add_links, stiffness_varies(scene, axes));
+  with_arcs_of_main(scene, add_links);
   return links;
 }
 
 HousingMultiplier housing_multiplier(const FollowedScene& scene, const Orbit& orbit,
                                      const std::vector<OrbitEquations::Axis>& axes, int multiplier, double speed_unit) {
-  const LeastChange least = least_change(housing_links(scene, orbit, axes), multiplier, speed_unit);
+  const LeastChange least = least_change(changes_of<double>(housing_links(scene, orbit, axes), multiplier, speed_unit));
   HousingMultiplier found{least.size, std::vector<Square4::value_type>(orbit.size()), {}};
   // the derivative of a singular value is left . dJ right, and J right the change of the flights in one direction
   const auto add_flights = [&]<Effects E>() {
@@ -154,7 +156,7 @@ HousingMultiplier housing_multiplier(const FollowedScene& scene, const Orbit& or
       }
     }
   };
-  with_arcs(scene, add_flights, stiffness_varies(scene, axes));
+  with_arcs_of_main(scene, add_flights);
   return found;
 }
 
@@ -165,7 +167,7 @@ namespace {
 Eigen::Matrix4d map_of(const FollowedScene& scene, const Orbit& orbit) {
   Eigen::Matrix4d map = Eigen::Matrix4d::Identity();
   if (orbit.size() == 0)
-    with_arcs(scene, [&]<Effects E>() {
+    with_arcs_of_main(scene, [&]<Effects E>() {
       const HousingFlights<double, E> flights(numbers_of<double>(scene));
       const auto& c = flights.constants();
       const double time = orbit.advance() / c.nu;
@@ -218,7 +220,7 @@ std::array<std::complex<double>, 4> housing_multipliers(const FollowedScene& sce
 Vector direction_of_daughter_in_housing(const FollowedScene& scene, const Orbit& orbit, const Orbit& daughter,
                                         double speed_unit) {
   const Eigen::Matrix4d back = map_of(scene, orbit) + Eigen::Matrix4d::Identity();
-  Eigen::Vector4d change = Eigen::JacobiSVD<Eigen::Matrix4d>(back, Eigen::ComputeFullV).matrixV().col(3);
+  Eigen::Vector4d change = least_change(back).right;
   Vector direction;
   for (const HousingLink& link : housing_links(scene, daughter, {})) {
     direction.push_back(change[0]);

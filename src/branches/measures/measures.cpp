@@ -39,7 +39,7 @@ void each_flight(const FollowedScene& scene, const Orbit& orbit, Function&& func
 /// The same in a housing, whose motion without impacts is that of no branch.
 template <class Function>
 void each_flight_in_housing(const FollowedScene& scene, const Orbit& orbit, Function&& function) {
-  with_arcs(scene, [&]<Effects E>() {
+  with_arcs_of_main(scene, [&]<Effects E>() {
     const HousingFlights<double, E> flights{numbers_of<double>(scene)};
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const OrbitImpact from = orbit.impact(i);

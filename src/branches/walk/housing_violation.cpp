@@ -1,6 +1,5 @@
 #include "branches/walk/housing_violation.hpp"
 
-#include "branches/equations/flight.hpp"
 #include "branches/equations/housing_flight.hpp"
 #include "branches/walk/flight_end.hpp"
 #include "motion/contact.hpp"
@@ -27,7 +26,7 @@ std::optional<Violation> housing_violation(const FollowedScene& scene, const Orb
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (i != grazing && !(sign_of(orbit.impacts[i].side) * orbit.impacts[i].before > 0))
       return Violation{Violation::Kind::pulls, i, {}};
-  return with_arcs(scene, [&]<Effects E>() -> std::optional<Violation> {
+  return with_arcs_of_main(scene, [&]<Effects E>() -> std::optional<Violation> {
     const HousingFlights<double, E> flights{numbers_of<double>(scene)};
     const Stops walls{.lower = scene.loose.lower, .upper = scene.loose.upper};
     for (std::size_t i = 0; i < orbit.size(); ++i) {
