@@ -5,7 +5,6 @@
 #include <deque>
 #include <functional>
 
-#include "branches/equations/housing_links.hpp"
 #include "branches/halt_end.hpp"
 #include "branches/resting/resting_branch.hpp"
 #include "branches/start.hpp"
@@ -217,8 +216,7 @@ class Follower {
   /// A branch born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
   void wait_for_daughter(const BranchPoint& at, std::size_t special) {
     const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.repeated(2);
-    const auto of = has_loose_mass(at.scene.loose) ? direction_of_daughter_in_housing : direction_of_daughter;
-    const Vector direction = of(at.scene, at.orbit, daughter, speed_scale(at.scene, daughter));
+    const Vector direction = direction_of_daughter(at.scene, at.orbit, daughter, speed_scale(at.scene, daughter));
     waiting_.push_back({at.scene, daughter, direction, special, generation_ + 1});
   }
 
@@ -229,7 +227,7 @@ class Follower {
     const Side side = equations.shape().impacts[impact].side;
     const OrbitImpact &turn = touch.orbit.impacts[touch.impact], &begins = touch.orbit.impacts[impact];
     const bool at_once = turn.side == side && turn.phase - begins.phase < 1e-2;
-    if (has_loose_mass(problem_.loose) || !at_once || begins.event != EventKind::impact) return false;
+    if (!at_once || begins.event != EventKind::impact) return false;
     if (numbers_of<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
     const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, impact}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
@@ -265,9 +263,7 @@ class Follower {
                 without = touch.halts ? halting_at_stop(exact->scene, with, touch.impact) : with.without(touch.impact);
     last.scene = exact->scene, last.orbit = touch.appears ? without : with;
     record_.add(last);
-    if (has_loose_mass(problem_.loose)
-            ? touch.appears && record_.is_of_cascade(last)
-            : !touch.halts && resting().waits_beyond(last, with.impacts[touch.impact].side, generation_))
+    if (!touch.halts && resting().waits_beyond(last, with.impacts[touch.impact].side, generation_))
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;
@@ -326,9 +322,8 @@ class Follower {
     if (orbit.impacts[graze].event != EventKind::impact) waiting_.back().opens = graze;
   }
   void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special, int came = 0) {
-    if (orbit.size() == 0 && has_loose_mass(scene.loose)) return;  // it stays wherever it is
     if (orbit.size() == 0 && orbit.pressed == Side::none) {
-      if (scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
+      if (scene.oscillator.stiffness == 0 || has_loose_mass(scene.loose)) return;  // it has no place of its own
       orbit = Orbit{};
     }
     // without it the motion may repeat sooner, or be symmetric

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "branches/branch.hpp"
-#include "branches/equations/housing_links.hpp"
+#include "branches/equations/housing_multipliers.hpp"
 #include "branches/equations/newton.hpp"
 #include "branches/housing_motion.hpp"
 #include "branches/measures/measures.hpp"

@@ -35,7 +35,7 @@ NEXT = {  # room: its right-hand neighbours; what these may include, it may incl
 }
 KNOWN_TO = {  # library header: the only rooms that see it
     r"fftw3": {"observables"},
-    r"Eigen": {"observables"},
+    r"Eigen": {"observables", "branches"},
     r"omp\.h": {"sweep"},
     r"hdf5|H5": {"results"},
     r"toml": {"config"},
@@ -73,7 +73,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
     },
     r"toml": {"src/config/toml_reader.cpp"},
     r"fftw3": {"src/observables/fourier_transform.cpp"},
-    r"Eigen": {"src/observables/multipliers.cpp"},
+    r"Eigen": {"src/observables/multipliers.cpp", "src/branches/equations/housing_multipliers.cpp"},
     r"nlohmann": {
         "apps/clatter/config_schema.cpp",
         "apps/clatter/json_output.cpp",

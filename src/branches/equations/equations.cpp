@@ -85,7 +85,7 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       const FlightEnd<First> end = flights.fly(flight);
       const bool closes = i + 1 == count;
       const std::size_t row = 2 * i, next = closes ? 0 : 2 * (i + 1);
-      const double sign = last_is_mirrored(orbit, i) ? -1 : 1;
+      const double sign = orbit.ends_mirrored(i) ? -1 : 1;
       out.residual[row] = end.beyond.value;
       out.residual[row + 1] = end.coordinate.value - orbit.impact(i + 1).coordinate();
       for (const auto& [equation, slope] :
@@ -200,7 +200,7 @@ void OrbitEquations::add_multiplier(const FollowedScene& scene, const Orbit& all
     for (std::size_t i = 0; i < count; ++i) {
       const FlightEnd<Second> end = flights.fly(flight_of<Second>(orbit, i));
       links.push_back(
-          link_of(end.beyond.slope, end.coordinate.slope, last_is_mirrored(orbit, i), orbit.impact(i + 1).event));
+          link_of(end.beyond.slope, end.coordinate.slope, orbit.ends_mirrored(i), orbit.impact(i + 1).event));
     }
   };
   const SceneNumbers<First> p = numbers_along<First>(scene, axes_);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "branches/equations/equations.hpp"
+#include "branches/equations/housing_multipliers.hpp"
 #include "branches/equations/links.hpp"
 
 namespace clatter::branches {
@@ -21,7 +22,7 @@ std::vector<Link<double>> links_of(const FollowedScene& scene, const Orbit& orbi
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const FlightEnd<Three> end = flights.fly(flight_of<Three>(orbit, i));
       links.push_back(
-          link_of(end.beyond.slope, end.coordinate.slope, last_is_mirrored(orbit, i), orbit.impact(i + 1).event));
+          link_of(end.beyond.slope, end.coordinate.slope, orbit.ends_mirrored(i), orbit.impact(i + 1).event));
     }
     return links;
   });
@@ -34,6 +35,7 @@ ImpactMap event_map(const FollowedScene& scene, const Orbit& orbit) {
 }
 
 Vector direction_of_daughter(const FollowedScene& scene, const Orbit& orbit, const Orbit& daughter, double speed_unit) {
+  if (has_loose_mass(scene.loose)) return direction_of_daughter_in_housing(scene, orbit, daughter, speed_unit);
   const ImpactMap map = event_map(scene, orbit);
   const auto& m = map.numerator;
   const double c = map.denominator;

@@ -1,7 +1,7 @@
 #include <cstddef>
 
 #include "branches/equations/equations.hpp"
-#include "branches/equations/housing_links.hpp"
+#include "branches/equations/housing_multipliers.hpp"
 
 namespace clatter::branches {
 
@@ -28,8 +28,9 @@ void OrbitEquations::add_multiplier_in_housing(const FollowedScene& scene, const
   out.residual[row] = of.value;
   for (std::size_t i = 0; i < orbit.size(); ++i)
     for (std::size_t j = 0; j < of_wall_impact; ++j)
-      out.slope(row, phase_of(i) + j) = of.by_impact[i][j] * (j == 0 ? 1.0 : speed_unit_);
-  for (std::size_t k = 0; k < axes_.size(); ++k) out.slope(row, first_axis() + k) = of.by_axis[k] * axes_[k].unit;
+      out.slope(row, phase_of(i) + j) = of.slopes.by_impact[i][j] * (j == 0 ? 1.0 : speed_unit_);
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    out.slope(row, first_axis() + k) = of.slopes.by_axis[k] * axes_[k].unit;
 }
 
 }  // namespace clatter::branches

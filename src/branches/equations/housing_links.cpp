@@ -1,37 +1,17 @@
 #include "branches/equations/housing_links.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 #include "branches/equations/housing_flight.hpp"
 #include "math/dual.hpp"
-#include "observables/multipliers.hpp"
 
 namespace clatter::branches {
 namespace {
-
-constexpr auto four = static_cast<Eigen::Index>(of_wall_impact);
 
 /// Derivatives by the impact that a flight begins with, by the phase at its end, and by two parameters.
 constexpr std::size_t by_end_phase = of_wall_impact, by_first_axis = by_end_phase + 1;
 using First = Dual<double, by_first_axis + 2>;
 using Along1 = Dual<First, 1>;  // of those, the change in one direction
-
-Eigen::Matrix4d matrix_of(const Square4& square) {
-  Eigen::Matrix4d matrix;
-  for (Eigen::Index i = 0; i < four; ++i)
-    for (Eigen::Index j = 0; j < four; ++j)
-      matrix(i, j) = square[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  return matrix;
-}
-Square4 square_of(const Eigen::Matrix4d& matrix) {
-  Square4 square;
-  for (Eigen::Index i = 0; i < four; ++i)
-    for (Eigen::Index j = 0; j < four; ++j)
-      square[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = matrix(i, j);
-  return square;
-}
 
 /// The numbers of a scene, with derivatives by the parameters that vary.
 template <class Number>
@@ -40,57 +20,6 @@ SceneNumbers<Number> numbers_along(const FollowedScene& scene, const std::vector
     for (std::size_t k = 0; k < axes.size(); ++k)
       set(given, axes[k].parameter, Number(First(value_of(scene, axes[k].parameter), by_first_axis + k)));
   });
-}
-
-/// Whether the flight after impact i ends in the mirror image of the first one.
-bool is_mirrored(const Orbit& orbit, std::size_t i) { return orbit.mirrored && i + 1 == orbit.size(); }
-
-/// The map of small changes from impact to impact: the phase of the next one makes up for the change of the gap.
-Eigen::Matrix4d map_of(const HousingLink& link) {
-  const Eigen::Matrix4d begin = matrix_of(link.by_begin), end = matrix_of(link.by_end);
-  Eigen::Matrix4d map;
-  map.row(0) = -begin.row(0) / end(0, 0);
-  for (Eigen::Index row = 1; row < four; ++row)
-    map.row(row) = -(begin.row(row) + end(row, 0) * map.row(0)) / end(row, row);
-  return map;
-}
-
-/// The equations of small changes of all impacts, of which the last flight returns the first `multiplier` times as
-/// large.
-template <class Number>
-Eigen::MatrixX<Number> changes_of(const std::vector<HousingLink>& links, Number multiplier, double speed_unit) {
-  const auto count = static_cast<Eigen::Index>(links.size());
-  const Eigen::Vector4d unit(1.0, speed_unit, speed_unit, speed_unit);
-  Eigen::MatrixX<Number> equations = Eigen::MatrixX<Number>::Zero(four * count, four * count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const HousingLink& link = links[static_cast<std::size_t>(i)];
-    const bool closes = i + 1 == count;
-    const Eigen::Matrix4d begin = matrix_of(link.by_begin) * unit.asDiagonal(),
-                          end = matrix_of(link.by_end) * unit.asDiagonal();
-    equations.block(four * i, four * i, four, four) += begin.cast<Number>();
-    equations.block(four * i, closes ? 0 : four * (i + 1), four, four) +=
-        (closes ? multiplier : Number(1)) * end.cast<Number>();
-  }
-  return equations;
-}
-
-/// The least singular value of equations, with its unit vectors: they take `right` to `size` times `left`.
-struct LeastChange {
-  double size;
-  Eigen::VectorXd left, right;
-};
-/// By inverse iteration, which converges at once where the value is small.
-LeastChange least_change(const Eigen::MatrixXd& equations) {
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(equations);
-  LeastChange found{0.0, Eigen::VectorXd::Ones(equations.rows()).normalized(), {}};
-  for (int iteration = 0; iteration < 200; ++iteration) {
-    found.right = lu.solve(found.left).normalized();
-    const Eigen::VectorXd left = lu.transpose().solve(found.right);
-    const double before = found.size;
-    found.size = 1 / left.norm(), found.left = left * found.size;
-    if (std::abs(found.size - before) <= 1e-15 * found.size) break;
-  }
-  return found;
 }
 
 /// The flight of two impacts on numbers that carry derivatives, and the change of both in one direction.
@@ -117,7 +46,7 @@ std::vector<HousingLink> housing_links(const FollowedScene& scene, const Orbit& 
         link.residual[row] = end[row].value - there[row];
         std::copy_n(slope.begin(), of_wall_impact, link.by_begin[row].begin());
         link.by_end[row][0] = slope[by_end_phase];
-        if (row > 0) link.by_end[row][row] = is_mirrored(orbit, i) ? 1.0 : -1.0;
+        if (row > 0) link.by_end[row][row] = orbit.ends_mirrored(i) ? 1.0 : -1.0;
         for (std::size_t k = 0; k < axes.size(); ++k) link.by_axis[row][k] = slope[by_first_axis + k];
       }
       links.push_back(link);
@@ -127,19 +56,18 @@ std::vector<HousingLink> housing_links(const FollowedScene& scene, const Orbit& 
   return links;
 }
 
-HousingMultiplier housing_multiplier(const FollowedScene& scene, const Orbit& orbit,
-                                     const std::vector<OrbitEquations::Axis>& axes, int multiplier, double speed_unit) {
-  const LeastChange least = least_change(changes_of<double>(housing_links(scene, orbit, axes), multiplier, speed_unit));
-  HousingMultiplier found{least.size, std::vector<Square4::value_type>(orbit.size()), {}};
-  // the derivative of a singular value is left . dJ right, and J right the change of the flights in one direction
+HousingSlopes housing_slopes(const FollowedScene& scene, const Orbit& orbit,
+                             const std::vector<OrbitEquations::Axis>& axes, const Vector& left, const Vector& right,
+                             int multiplier) {
+  HousingSlopes found{std::vector<Square4::value_type>(orbit.size()), {}};
+  // J right is the change of the flights in one direction
   const auto add_flights = [&]<Effects E>() {
     const HousingFlights<Along1, E> flights(numbers_along<Along1>(scene, axes));
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const bool closes = i + 1 == orbit.size();
       const std::size_t next = closes ? 0 : i + 1;
       const auto change = [&](std::size_t impact, std::size_t unknown) {
-        const double unit = unknown == 0 ? 1.0 : speed_unit;
-        return First(unit * least.right[static_cast<Eigen::Index>(of_wall_impact * impact + unknown)]);
+        return First(right[of_wall_impact * impact + unknown]);
       };
       WallImpact<Along1> from = begin_of<Along1>(orbit.impact(i));
       from.phase.slope[0] = change(i, 0), from.w.slope[0] = change(i, 1);
@@ -148,89 +76,17 @@ HousingMultiplier housing_multiplier(const FollowedScene& scene, const Orbit& or
       phase.slope[0] = change(next, 0) * First(closes ? multiplier : 1);
       const auto end = flights.end(from, phase, orbit.impact(i + 1).side);
       for (std::size_t row = 0; row < of_wall_impact; ++row) {
-        const double left = least.left[static_cast<Eigen::Index>(of_wall_impact * i + row)];
         const auto& slope = end[row].slope[0].slope;
-        for (std::size_t j = 0; j < of_wall_impact; ++j) found.by_impact[i][j] += left * slope[j];
-        found.by_impact[next][0] += left * slope[by_end_phase];
-        for (std::size_t k = 0; k < axes.size(); ++k) found.by_axis[k] += left * slope[by_first_axis + k];
+        for (std::size_t j = 0; j < of_wall_impact; ++j)
+          found.by_impact[i][j] += left[of_wall_impact * i + row] * slope[j];
+        found.by_impact[next][0] += left[of_wall_impact * i + row] * slope[by_end_phase];
+        for (std::size_t k = 0; k < axes.size(); ++k)
+          found.by_axis[k] += left[of_wall_impact * i + row] * slope[by_first_axis + k];
       }
     }
   };
   with_arcs_of_main(scene, add_flights);
   return found;
-}
-
-namespace {
-
-/// The map of small changes of the first impact over a period, or half a period; of motion without impacts that of its
-/// state.
-Eigen::Matrix4d map_of(const FollowedScene& scene, const Orbit& orbit) {
-  Eigen::Matrix4d map = Eigen::Matrix4d::Identity();
-  if (orbit.size() == 0)
-    with_arcs_of_main(scene, [&]<Effects E>() {
-      const HousingFlights<double, E> flights(numbers_of<double>(scene));
-      const auto& c = flights.constants();
-      const double time = orbit.advance() / c.nu;
-      const motion::Propagator<double> free = c.propagator(time);
-      map.topLeftCorner<2, 2>() << free.a, free.b, -c.spring(free.b), free.c;
-      map(2, 3) = time;
-      if (orbit.mirrored) map = -map;
-    });
-  for (const HousingLink& link : housing_links(scene, orbit, {})) map = map_of(link) * map;
-  return map;
-}
-
-}  // namespace
-
-// From its values at 1, -1 and i; a power of a map that is infinite in a graze would have no digits there.
-HousingCharacteristic housing_characteristic(const FollowedScene& scene, const Orbit& orbit) {
-  const SceneNumbers<double> p = numbers_of<double>(scene);
-  const std::vector<HousingLink> links = housing_links(scene, orbit, {});
-  const double at_1 = changes_of<double>(links, 1.0, 1.0).determinant(),
-               at_minus_1 = changes_of<double>(links, -1.0, 1.0).determinant();
-  const std::complex<double> at_i =
-      changes_of<std::complex<double>>(links, std::complex<double>(0.0, 1.0), 1.0).determinant();
-  HousingCharacteristic found;
-  for (const HousingLink& link : links)
-    for (std::size_t i = 0; i < of_wall_impact; ++i) found.leading *= link.by_end[i][i];
-  found.determinant = std::exp(-2 * p.oscillator.damping * orbit.advance() / p.oscillator.frequency) *
-                      std::pow(p.loose.restitution, 2 * static_cast<double>(orbit.size()));
-  const double sum = (at_minus_1 - at_1) / 2, difference = at_i.imag();  // a + c, a - c
-  found.a = (sum + difference) / 2, found.c = (sum - difference) / 2;
-  found.b = (at_1 + at_minus_1) / 2 - found.leading * (1 + found.determinant);
-  return found;
-}
-
-// If two multipliers have the product 1, the polynomial is (s^2 + p s + 1)(s^2 + q s + D) with p = (c - a)/(1 - D) and
-// q = (a D - c)/(1 - D).
-double HousingCharacteristic::distance_to_unit_product() const {
-  const double D = determinant;
-  if (!(D < 1 - 1e-9)) return 1.0;  // nothing contracts, so that all pairs have it
-  return (b - leading * (1 + D)) * leading * (1 - D) * (1 - D) - (c - a) * (a * D - c);
-}
-
-bool HousingCharacteristic::would_be_complex() const {
-  return std::abs(c - a) < 2 * (1 - determinant) * std::abs(leading);
-}
-
-std::array<std::complex<double>, 4> housing_multipliers(const FollowedScene& scene, const Orbit& orbit) {
-  return observables::multipliers_of(square_of(map_of(scene, orbit)));
-}
-
-Vector direction_of_daughter_in_housing(const FollowedScene& scene, const Orbit& orbit, const Orbit& daughter,
-                                        double speed_unit) {
-  const Eigen::Matrix4d back = map_of(scene, orbit) + Eigen::Matrix4d::Identity();
-  Eigen::Vector4d change = least_change(back).right;
-  Vector direction;
-  for (const HousingLink& link : housing_links(scene, daughter, {})) {
-    direction.push_back(change[0]);
-    for (Eigen::Index i = 1; i < four; ++i) direction.push_back(change[i] / speed_unit);
-    change = map_of(link) * change;
-  }
-  direction.push_back(0.0);
-  const double length = std::sqrt(product(direction, direction));
-  for (double& x : direction) x /= length;
-  return direction;
 }
 
 }  // namespace clatter::branches

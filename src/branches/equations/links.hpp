@@ -96,8 +96,6 @@ inline ImpactMap map_of(const std::vector<Link<double>>& links, double determina
   return map;
 }
 
-inline bool last_is_mirrored(const Orbit& orbit, std::size_t i) { return orbit.mirrored && i + 1 == orbit.size(); }
-
 /// The derivative of a flight's end by the state before the event that it begins with (eqs. 7, 27 and 53), times the
 /// speed before a rigid impact.
 template <class Number, Effects E>
@@ -133,7 +131,7 @@ std::vector<Link<Number>> links_of_states(const FollowedScene& scene, const Orbi
       [&]<Effects E>() {
         const Flights<Number, E> flights(p);
         for (std::size_t i = 0; i < orbit.size(); ++i)
-          links.push_back(link_of_states(flights, flight_of<Number>(orbit, i), last_is_mirrored(orbit, i)));
+          links.push_back(link_of_states(flights, flight_of<Number>(orbit, i), orbit.ends_mirrored(i)));
       },
       stiffness_varies);
   return links;

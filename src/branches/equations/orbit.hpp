@@ -64,6 +64,8 @@ struct Orbit {
   [[nodiscard]] bool changes_nothing(std::size_t i) const;
   [[nodiscard]] double advance() const;       ///< of the forcing phase, rad
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
+  /// Whether the flight after event i ends in the mirror image of the first one.
+  [[nodiscard]] bool ends_mirrored(std::size_t i) const { return mirrored && i + 1 == size(); }
   /// Impact i = 0 ... size: the last one is the first, half a period or a period later.
   [[nodiscard]] OrbitImpact impact(std::size_t i) const;
   /// The side that the mass moves to before event i, if it is one of rigid stops and dry friction.

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "branches/equations/housing_flight.hpp"
-#include "branches/equations/housing_links.hpp"
+#include "branches/equations/housing_multipliers.hpp"
 #include "branches/measures/moving.hpp"
 #include "observables/extrema_observer.hpp"
 
@@ -86,8 +86,7 @@ observables::Extrema::Values extrema_in_housing(const FollowedScene& scene, cons
                                                 const std::optional<FrameMotion>& frame) {
   // of a span that begins at phase 0 and ends with the first impact, where the main mass has this state
   const OrbitImpact& first = whole.impacts.at(0);
-  const observables::ObservedSpan span{
-      .scene = scene, .turns = first.phase / (2 * std::numbers::pi), .frame = frame};
+  const observables::ObservedSpan span{.scene = scene, .turns = first.phase / (2 * std::numbers::pi), .frame = frame};
   observables::Extrema::Observer extrema({}, span);
   each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
     const double since = begin / arc.constants().nu;

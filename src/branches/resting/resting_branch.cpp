@@ -187,6 +187,7 @@ void RestingBranch::note_maxima(double here, double next, const Orbit& like) {
 
 bool RestingBranch::waits_beyond(const BranchPoint& last, Side stop, std::int64_t generation) {
   if (!record_.is_of_cascade(last)) return false;
+  if (has_loose_mass(problem_.loose)) return true;  // beyond the limit a wall presses it, which isn't followed
   const double distance = record_.way_to(last);
   const auto resting = resting_ahead(last, stop, distance);
   if (resting)

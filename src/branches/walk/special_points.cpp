@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "branches/equations/housing_links.hpp"
+#include "branches/equations/housing_multipliers.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/measures/moving.hpp"
 
