@@ -99,6 +99,8 @@ def branch_settings(output, points):
     """One period of the motion, stable or not, from its state at forcing phase 0."""
     section, kept = section_of(output), points.kept[0]
     keys = {**{key: key for key in output.sweep}, "x0": "x", "v0": "v"}
+    if output.has_loose_mass:
+        keys |= {"loose_x0": "z", "loose_v0": "w"}
     parts = []
     for key, name in keys.items():
         parts += [f" --set {section}.{key}=", numbers(output.values(name)[kept])]

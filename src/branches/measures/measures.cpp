@@ -141,7 +141,7 @@ SectionState state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit)
       const double nu = arc.constants().nu, next = std::ceil(begin / turn) * turn;
       if (!state && next <= begin + nu * length) state = state_on(arc, begin, next, frame);
     });
-    return state.value_or(SectionState{});
+    return attractors::moved_inside(scene, state.value_or(SectionState{}));  // by rounding, beside an impact
   }
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) {
     const double nu = arc.constants().nu, next = std::ceil(begin / turn) * turn;
