@@ -46,7 +46,7 @@ TEST(LooseMass, is_refused_by_what_does_not_know_it) {
       {carried + "[sweep]\nloose_x0 = [0, 1]\nfollow = \"loose_x0\"\n", "7:10", "only the first point would start"},
       {carried + "[branch]\nalong = \"R\"\nrange = [0.5, 1]\n", "6:9", "along = 'R' conflicts with 'loose_mass'"},
       {carried + "[branch]\nalong = \"loose_mass\"\nrange = [0, 1]\n", "7:9", "range of 'loose_mass' reaches 0"},
-      {carried + "[branch]\nalong = \"nu\"\nrange = [0.5, 2]\nacross = \"f\"\ncurve = \"fold\"\n", "8:10",
+      {carried + "[branch]\nalong = \"nu\"\nrange = [0.5, 2]\nacross = \"f\"\ncurve = \"fold\"\n", "8:1",
        "'across' conflicts with 'loose_mass'"},
       {"[scene]\nloose_mass = 0.1\nloose_gap = 2\n[time]\nmode = \"transient\"\nduration = 9\n[observe]\nsection = 4\n",
        "8:1", "a section without a force conflicts with 'loose_mass'"},
