@@ -28,7 +28,7 @@ def certified(output, certificates, *words):
 
 
 def certified_scenes(folder, scenes, time):
-    """Runs scenes, or their keys, in a sweep for each kind of them, and writes the certificates of all into one file."""
+    """Runs scenes, or their keys, in a sweep for each kind, and writes the certificates of all into one file."""
     folder, kinds = Path(folder), {}
     for scene in scenes:
         values = scene if isinstance(scene, dict) else keys_of(scene)
