@@ -83,6 +83,6 @@ inline void vary_start(support::Random& random, const Stops& stops, Start& start
   return any;
 }
 
-inline constexpr Kind sliding{"sliding", any_sliding_scene, 2000};
+inline constexpr Kind sliding{"sliding", any_sliding_scene, 1000};
 
 }  // namespace clatter::hard
