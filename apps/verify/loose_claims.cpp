@@ -124,15 +124,7 @@ OrbitInHousing claimed_orbit_in_housing(const Certificate& certificate, const Sc
     require_press(certificate, motion);
     require_possible(certificate, motion, end_of(certificate, scene, Ball(1)));
   };
-  try {
-    return orbit_near(certificate, scene);
-  } catch (const Undecided&) {
-    require_one();
-    throw;
-  } catch (const Refuted& near) {  // of motion from the middle of the claimed errors
-    require_one();
-    throw Undecided(near.what());
-  }
+  return found_or_undecided([&] { return orbit_near(certificate, scene); }, require_one);
 }
 
 /// The events of a period; one that starts within a press has this as a whole at its end.

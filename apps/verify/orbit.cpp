@@ -113,15 +113,7 @@ Orbit claimed_orbit(const Certificate& certificate, const Scene& scene) {
                     {certificate.start_x.error.ball(), certificate.start_v.error.ball()});
       require_possible(certificate, motion, motion.start_time() + length_of(scene, certificate.periods));
     };
-    try {
-      return periodic_orbit(certificate, scene, certificate.periods);
-    } catch (const Undecided&) {
-      require_one();
-      throw;
-    } catch (const Refuted& near) {  // of motion from the middle of the claimed errors
-      require_one();
-      throw Undecided(near.what());
-    }
+    return found_or_undecided([&] { return periodic_orbit(certificate, scene, certificate.periods); }, require_one);
   }
   if (certificate.periods != 1) throw Refuted("periods: claimed " + std::to_string(certificate.periods) + ", found 1");
   std::vector<Event> events;  // a stop holds the mass for ever

@@ -39,6 +39,21 @@ void require_same_release(const Certificate& certificate, const Course& course, 
 /// Refutes a claim if a motion of the claimed errors, followed up to the end, doesn't meet the claimed events.
 void require_possible(const Certificate& certificate, Followed& motion, const Ball& end);
 
+/// The motion that `find` finds near the claimed one. If it can't tell, or refutes motion from the middle of the
+/// claimed errors, `require_one` refutes the claim if no motion of these errors is as claimed; else it is undecided.
+template <class Find, class Require>
+[[nodiscard]] auto found_or_undecided(const Find& find, const Require& require_one) -> decltype(find()) {
+  try {
+    return find();
+  } catch (const Undecided&) {
+    require_one();
+    throw;
+  } catch (const Refuted& near) {
+    require_one();
+    throw Undecided(near.what());
+  }
+}
+
 /// The periodic motion that a certificate claims, resting or not. Throws Refuted or Undecided.
 [[nodiscard]] Orbit claimed_orbit(const Certificate& certificate, const Scene& scene);
 

@@ -60,7 +60,7 @@ struct LeastChange {
   double size;
   Eigen::VectorXd left, right;
 };
-/// By inverse iteration, which converges at once where the value is small.
+/// By inverse iteration, which converges at once if the value is small.
 LeastChange least_change(const Eigen::MatrixXd& equations) {
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(equations);
   LeastChange found{0.0, Eigen::VectorXd::Ones(equations.rows()).normalized(), {}};
