@@ -88,7 +88,8 @@ int run_accuracy(const Arguments& arguments) {
               << storage::printable(output) << " is not written\n";
     return 128 + signal;
   }
-  place.write_atomically(results::file_image(accuracy_dataset(config.sweep, points), config).bytes);
+  place.write_atomically(
+      [&](storage::FileWriter& file) { results::write_file(file, accuracy_dataset(config.sweep, points), config); });
   if (!arguments.has("quiet")) std::cerr << storage::printable(output) << '\n';
   return any_failed(points) ? points_failed : done;
 }

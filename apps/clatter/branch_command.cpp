@@ -82,8 +82,9 @@ int run_branch(const Arguments& arguments) {
   std::vector<Parameter> parameters{settings.along};
   if (settings.across) parameters.push_back(*settings.across);
   // before anything is printed, as a reader such as head may close the pipe
-  place.write_atomically(
-      results::file_image(branch_dataset(found, settings, start.units, has_loose_mass(start.loose)), config).bytes);
+  place.write_atomically([&](storage::FileWriter& to) {
+    results::write_file(to, branch_dataset(found, settings, start.units, has_loose_mass(start.loose)), config);
+  });
   for (const SpecialPoint& special : found.special)
     std::cout << (arguments.has("json") ? special_json : special_text)(special, parameters, start.units);
   std::cout << std::flush;

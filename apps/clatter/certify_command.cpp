@@ -61,7 +61,7 @@ int certify(const Arguments& arguments) try {
       std::cout.write(line.data(), static_cast<std::streamsize>(line.size()));
   };
   const certificates::Tally tally = tally_of(arguments.operands[0], places, sample, take);
-  if (output) storage::write_atomically(*output, std::as_bytes(std::span(text)));
+  if (output) storage::write_atomically(*output, text);
   std::cerr << tally.text() << '\n';
   return tally.not_reproduced() > 0 ? points_failed : done;
 } catch (const ChoiceError& error) {

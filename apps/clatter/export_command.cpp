@@ -53,7 +53,7 @@ int export_table(const Arguments& arguments) try {
   }
   std::string text;
   table.write(dataset, [&](std::string_view more) { text += more; });
-  storage::write_atomically(*output, std::as_bytes(std::span(text)));
+  storage::write_atomically(*output, text);
   return done;
 } catch (const ChoiceError& error) {
   throw UsageError(error.what());

@@ -48,7 +48,7 @@ void write_below(const std::filesystem::path& folder, const std::string& name, c
   if (error)
     throw storage::IoError("cannot make the folder " + storage::quoted_name(path.parent_path().string()) + ": " +
                            error.message());
-  storage::write_atomically(path.string(), std::as_bytes(std::span(text)));
+  storage::write_atomically(path.string(), text);
 }
 
 void write_manual(const std::filesystem::path& folder) {

@@ -87,7 +87,7 @@ int write_model(const Arguments& arguments) {
   storage::check_writable(path);
   const auto refuse = [&] { refuse_existing(path); };
   refuse();
-  storage::write_atomically(path, std::as_bytes(std::span(model.text)), {.before_rename = refuse});
+  storage::write_atomically(path, model.text, {.before_rename = refuse});
   std::cerr << storage::printable(path + ": written; change it, and run it by: clatter run " + path) << '\n';
   return done;
 }

@@ -137,6 +137,8 @@ std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
                   {"foretold_seconds", or_null(seconds, itself)},
                   {"output_bytes", whole(plan.need.output)},
                   {"memory_bytes", whole(plan.need.memory)},
+                  {"disk_bytes", whole(plan.need.disk())},
+                  {"merge_memory_bytes", whole(plan.need.merging)},
                   {"estimated_log_bytes", whole(plan.need.log)},
                   {"machine_bytes", whole(plan.available_memory)},
                   {"warnings", plan.warnings}},

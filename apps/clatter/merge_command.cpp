@@ -7,10 +7,10 @@
 #include "commands.hpp"
 #include "common_options.hpp"
 #include "format.hpp"
-#include "memory_check.hpp"
 #include "outputs/merge.hpp"
 #include "results/dataset_file.hpp"
 #include "results/output_place.hpp"
+#include "room_check.hpp"
 #include "run_report.hpp"
 #include "storage/atomic_write.hpp"
 #include "storage/journal.hpp"
@@ -38,19 +38,17 @@ int merge_shards(const Arguments& arguments) {
   storage::require_idle(output);
   const outputs::ShardSet shards = outputs::shard_set(arguments.operands);
   const results::OutputPlace place(output, {.title = shards.config.title}, arguments.has("force"));
-  check_merge_memory(shards.bytes);
+  check_merge(shards, output);
   if (arguments.has("verbose"))
     std::cerr << "shards           " << shards.headers.size() << "\nrounding         "
               << storage::printable(shards.headers.front().rounding) << "\nmemory           "
               << bytes_text(shards.bytes) << '\n';
-  outputs::Merged merged = merge(shards);
-  const std::string failures = failures_text(merged.dataset, shards.config.sweep);
-  place.write_atomically(results::file_image(std::move(merged.dataset), shards.config).bytes);
+  const sweep::StatusTally statuses = outputs::Merge(shards).write(place);
   if (!arguments.has("quiet"))
     std::cerr << counted(static_cast<double>(size(shards.config.sweep)), "point") << " of "
-              << counted(static_cast<double>(shards.headers.size()), "shard") << ", " << failures << ", "
-              << storage::printable(output) << '\n';
-  return merged.failed_points > 0 ? points_failed : done;
+              << counted(static_cast<double>(shards.headers.size()), "shard") << ", "
+              << failures_text(statuses, shards.config.sweep) << ", " << storage::printable(output) << '\n';
+  return statuses.failed() > 0 ? points_failed : done;
 }
 
 constexpr std::string_view examples = "  clatter merge -o map_nu_xs.h5 map_nu_xs.*-of-4.h5\n";

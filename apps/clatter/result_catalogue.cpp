@@ -11,7 +11,7 @@
 #include "csv_text.hpp"
 #include "file_points.hpp"
 #include "scene/parameter.hpp"
-#include "sweep/result_store.hpp"
+#include "sweep/result_dataset.hpp"
 
 namespace clatter::app {
 namespace {
@@ -42,7 +42,7 @@ config::Config config_with_all(std::string_view scene) {
 
 results::Dataset described(std::string_view command, const config::Config& config) {
   const sweep::Sweep& sweep = config.sweep;
-  if (command == "run") return sweep::ResultStore(sweep).description();
+  if (command == "run") return sweep::description(sweep);
   if (command == "branch")
     return branches::branch_dataset({}, {.along = sweep.dimensions[0][0].parameter}, {.is_si = sweep.problem.is_si},
                                     has_loose_mass(sweep));

@@ -53,14 +53,6 @@ std::string work_text(const std::vector<sweep::WorkStats>& work) {
          "\nevaluations      " + formatted("%.0f", evaluations) + '\n';
 }
 
-/// The index in the sweep of the point with a local index in a run.
-std::size_t point_of(const sweep::Share& share, std::size_t local_index) {
-  for (std::size_t chain = 0; chain < share.count(); ++chain)
-    for (std::size_t i = 0; i < share.length(); ++i)
-      if (share.local_index(chain, i) == local_index) return share.point(chain, i);
-  return local_index;
-}
-
 std::string example_text(const sweep::Sweep& sweep, std::size_t point) {
   const std::string coordinates = coordinates_text(sweep, point);
   return ", e.g. point " + std::to_string(point) + (coordinates.empty() ? "" : " at " + coordinates);
@@ -70,7 +62,7 @@ std::string example_text(const sweep::Sweep& sweep, std::size_t point) {
 
 std::string summary_of_points(const sweep::RunResult& result, const sweep::Sweep& sweep,
                               const std::optional<results::Shard>& shard) {
-  return counted(static_cast<double>(result.points), "point") + ", " + failures_text(result.dataset, sweep, shard);
+  return counted(static_cast<double>(result.points), "point") + ", " + failures_text(result.statuses, sweep, shard);
 }
 
 std::string details(const sweep::RunResult& result, const std::string& command, const std::string& began) {
@@ -99,21 +91,17 @@ std::string command_line() {
   return words;
 }
 
-std::string failures_text(const results::Dataset& dataset, const sweep::Sweep& sweep,
+std::string failures_text(const sweep::StatusTally& statuses, const sweep::Sweep& sweep,
                           const std::optional<results::Shard>& shard) {
-  const std::vector<std::uint8_t>& statuses = *results::values_of<std::uint8_t>(dataset, "status");
   const sweep::Share share(sweep, shard);
   std::string text;
-  std::ptrdiff_t failures = 0;
   for (const auto& [status, name, meaning] : steady::status_names) {
-    const auto value = static_cast<std::uint8_t>(status);
-    const auto count = std::ranges::count(statuses, value);
-    if (!steady::failed(status) || count == 0) continue;
-    const auto first = static_cast<std::size_t>(std::ranges::find(statuses, value) - statuses.begin());
-    (text += text.empty() ? " (" : "; ") += std::string(name) + ": " + std::to_string(count);
-    text += example_text(sweep, point_of(share, first));
-    failures += count;
+    const sweep::StatusTally::Entry& points = statuses.of(status);
+    if (!steady::failed(status) || points.points == 0) continue;
+    (text += text.empty() ? " (" : "; ") += std::string(name) + ": " + std::to_string(points.points);
+    text += example_text(sweep, share.point_at(points.first));
   }
+  const std::size_t failures = statuses.failed();
   return std::to_string(failures) + " failed" + text + (failures > 0 ? ")" : "");
 }
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "results/dataset.hpp"
 #include "sweep/run.hpp"
 #include "sweep/share.hpp"
+#include "sweep/status_tally.hpp"
 
 namespace clatter::app {
 
@@ -25,7 +25,7 @@ namespace clatter::app {
 
 /// "2 failed (event_budget: 2, e.g. point 0 at nu = 0.5)": how many points of a run failed, how many by each status,
 /// and the first of each by its index in the sweep, from 0.
-[[nodiscard]] std::string failures_text(const results::Dataset& dataset, const sweep::Sweep& sweep,
+[[nodiscard]] std::string failures_text(const sweep::StatusTally& statuses, const sweep::Sweep& sweep,
                                         const std::optional<results::Shard>& shard = {});
 
 }  // namespace clatter::app

@@ -9,10 +9,10 @@
 #include "commands.hpp"
 #include "config/config_diff.hpp"
 #include "format.hpp"
-#include "memory_check.hpp"
 #include "plan_report.hpp"
 #include "results/dataset_file.hpp"
 #include "results/version.hpp"
+#include "room_check.hpp"
 #include "run_report.hpp"
 #include "storage/utf8.hpp"
 #include "sweep/rounding_fingerprint.hpp"
@@ -55,13 +55,15 @@ RunSession::RunSession(config::Config config, RunRequest request)
       place_(request_.output, {.shard = name_of(request_.shard), .title = config_.title}, request_.force) {}
 
 int RunSession::run() {
-  announce(check_memory(config_, request_.shard, request_.threads));
+  const plan::MemoryNeed need = check_memory(config_, request_.shard, request_.threads);
+  check_disk(config_, need, request_.output);
+  announce(need);
   open_journal();
   announce_restored();
   compute();
   journal_->remove();
   report();
-  return result_.failed_points > 0 ? points_failed : done;
+  return result_.statuses.failed() > 0 ? points_failed : done;
 }
 
 void RunSession::announce(const plan::MemoryNeed& need) const {
@@ -72,7 +74,7 @@ void RunSession::announce(const plan::MemoryNeed& need) const {
 }
 
 void RunSession::open_journal() {
-  sweep_.emplace(config_.sweep, request_.shard);
+  sweep_.emplace(config_.sweep, request_.shard, std::make_shared<storage::Scratch>(request_.output));
   const storage::RecordLimit limit{sweep_->most_saved(), config_.sweep.problem.observe.impact_log};
   const storage::JournalKey key = journal_key(config_, request_);
   try {
@@ -129,8 +131,8 @@ void RunSession::save() {
 void RunSession::write() {
   result_ = sweep_->result();
   summary_ = summary_of_points(result_, config_.sweep, request_.shard);
-  const auto image = request_.shard ? results::image_with_checksum : results::file_image;
-  place_.write_atomically(image(std::move(result_.dataset), config_).bytes,
+  const auto write_result = request_.shard ? results::write_file_with_checksum : results::write_file;
+  place_.write_atomically([&](storage::FileWriter& file) { write_result(file, std::move(result_.dataset), config_); },
                           [this](std::uint64_t bytes) { journal_->give_back(bytes); });
 }
 

@@ -1,16 +1,19 @@
 #include "outputs/merge.hpp"
 
+#include <algorithm>
+#include <exception>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
+#include <utility>
 
 #include "config/config_diff.hpp"
 #include "plan/memory_need.hpp"
 #include "results/version.hpp"
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
+#include "sweep/output_variables.hpp"
 #include "sweep/parallel.hpp"
-#include "sweep/result_store.hpp"
+#include "sweep/share.hpp"
 
 namespace clatter::outputs {
 namespace {
@@ -89,11 +92,12 @@ void check_points(const sweep::Sweep& sweep, const std::vector<results::ShardHea
   if (!missing.empty()) throw storage::IoError(missing);
 }
 
-double bytes_for(const sweep::Sweep& sweep, const std::vector<results::ShardHeader>& headers) {
-  std::vector<plan::ShardSize> sizes;
-  sizes.reserve(headers.size());
-  for (const results::ShardHeader& header : headers) sizes.push_back({header.shard, header.impacts});
-  return merge_bytes(sweep, sizes);
+void add_sizes(ShardSet& set) {
+  const sweep::Sweep& sweep = set.config.sweep;
+  double impacts = 0.0;
+  for (const results::ShardHeader& header : set.headers) impacts += static_cast<double>(header.impacts);
+  set.bytes = plan::merge_bytes(sweep, impacts);
+  set.output_bytes = plan::memory_need(sweep, std::nullopt, 1, impacts).output;
 }
 
 /// The most values that a run of a shard's configuration writes; one that can't be read is of another version, and
@@ -107,32 +111,63 @@ std::optional<double> most_values_of(const results::ShardHeader& header) try {
   return std::nullopt;
 }
 
+/// Reads several at a time, each in a process of its own. Throws the error of the first one that has one.
+std::vector<results::ShardHeader> headers_of(const std::vector<std::string>& paths) {
+  std::vector<results::ShardHeader> headers(paths.size());
+  std::vector<std::exception_ptr> errors(paths.size());
+  sweep::parallel_for(paths.size(), sweep::default_threads(), [&](std::size_t i) {
+    try {
+      headers[i] = results::read_shard_header(paths[i], most_values_of);
+    } catch (...) {
+      errors[i] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+  return headers;
+}
+
 }  // namespace
 
 ShardSet shard_set(const std::vector<std::string>& paths) {
   ShardSet set;
-  for (const std::string& path : paths) set.headers.push_back(results::read_shard_header(path, most_values_of));
+  set.headers = headers_of(paths);
   check_origins(set.headers);
   set.config = config::parse_config(set.headers.front().config, set.headers.front().path);
   check_points(set.config.sweep, set.headers);
-  set.bytes = bytes_for(set.config.sweep, set.headers);
+  add_sizes(set);
   return set;
 }
 
-Merged merge(const ShardSet& shards) {
-  sweep::ResultStore store(shards.config.sweep);
-  for (const results::ShardHeader& header : shards.headers) {
-    results::Dataset dataset = results::read_shard(header.path);
-    try {
-      store.take(dataset, header.shard);
-    } catch (const std::runtime_error& error) {
-      throw storage::IoError(storage::quoted_name(header.path) + " isn't what a run of its configuration writes: " +
-                             error.what() + "; run shard " + text_of(header.shard) + " again");
-    }
-  }
-  store.number_motions(sweep::default_threads());
-  const std::size_t failed_points = store.failed_points();
-  return {store.dataset(), failed_points};
+Merge::Merge(const ShardSet& shards) : shards_(shards) {
+  for (const results::ShardHeader& header : shards.headers) readers_.emplace_back(header.path);
+  for (std::size_t i = 0; i < readers_.size(); ++i)
+    parts_.push_back({shards.headers[i].shard,
+                      [this, i](const std::string& variable) { return reader(i).rows(variable); },
+                      [this, i](const std::string& variable, std::size_t first, std::size_t rows) {
+                        return reader(i).values(variable, first, rows);
+                      }});
+}
+
+/// Of a great many shards only some files are open.
+results::ShardReader& Merge::reader(std::size_t shard) {
+  constexpr std::size_t most_open = 128;
+  const auto found = std::ranges::find(open_, shard);
+  if (found == open_.end() && open_.size() == most_open) readers_[open_.front()].close(), open_.pop_front();
+  if (found == open_.end()) open_.push_back(shard);
+  return readers_[shard];
+}
+
+sweep::StatusTally Merge::write(const results::OutputPlace& place) try {
+  const results::FileHead& head = shards_.config;
+  sweep::Joined joined = sweep::joined(shards_.config.sweep, parts_, sweep::default_threads());
+  place.write_atomically(
+      [&](storage::FileWriter& file) { results::write_file(file, std::move(joined.dataset), head); });
+  return joined.statuses;
+} catch (const sweep::PartError& error) {
+  const results::ShardHeader& header = shards_.headers[error.part()];
+  throw storage::IoError(storage::quoted_name(header.path) + " isn't what a run of its configuration writes: " +
+                         error.what() + "; run shard " + text_of(header.shard) + " again");
 }
 
 }  // namespace clatter::outputs

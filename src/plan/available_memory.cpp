@@ -133,17 +133,17 @@ std::vector<MemoryLimit> address_limits(double addresses, double data, const Pro
   const double stacks = threads * stack_of_thread();
   // The need includes the memory that is resident now; the rest of the addresses comes on top.
   const double left = addresses - (now.addresses - now.resident) - stacks;
-  return {{std::max(0.0, left), "ulimit -v leaves"},
+  return {{std::max(0.0, left), "ulimit -v leaves", true},
           {std::max(0.0, data - (now.data - now.resident) - stacks), "ulimit -d leaves"}};
 }
 
-MemoryLimit memory_limit(int threads) {
+MemoryLimit memory_limit(int threads, double mapped) {
   std::vector<MemoryLimit> limits = group_limits();
   const MemoryLimit machine{machine_limit(), "this machine has"};
   limits.push_back(machine);
   std::ranges::move(address_limits(resource_limit(RLIMIT_AS), resource_limit(RLIMIT_DATA), size_now(), threads),
                     std::back_inserter(limits));
-  return *std::ranges::min_element(limits, {}, &MemoryLimit::bytes);
+  return *std::ranges::min_element(limits, {}, [=](const MemoryLimit& limit) { return limit.besides(mapped); });
 }
 
 double peak_bytes() {

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "point/point.hpp"
+#include "storage/scratch.hpp"
 #include "sweep/attractor_table.hpp"
 #include "sweep/chains.hpp"
-#include "sweep/result_store.hpp"
+#include "sweep/joined.hpp"
+#include "sweep/output_variables.hpp"
 
 namespace clatter::plan {
 namespace {
@@ -18,35 +20,52 @@ constexpr double program = 11.5 * kibi * kibi;  ///< the program and its librari
 constexpr double thread = 64 * kibi;            ///< stack and heap of a thread
 constexpr double value = sizeof(double);
 
-constexpr double short_text = 2 * sizeof(std::string);  ///< most are short; in the file a reference, a header, letters
-constexpr double heap = 2 * sizeof(void*);              ///< overhead of a block
-constexpr double held_impact = sizeof(observables::LoggedImpact);
-constexpr double lone_block = 128 * kibi;  ///< size from which on a block is returned to the system by itself
+constexpr double text_in_file = 64;  ///< of a short text: a reference, a header, letters
+constexpr double pointer = sizeof(void*);
+constexpr double kept_text = 24;  ///< of a short text: length, letters
+constexpr double logged_head = sizeof(std::uint64_t);
+constexpr double logged_impact = sizeof(observables::LoggedImpact);
+constexpr double files_resident = storage::Scratch::most_resident + storage::Scratch::between_checks;
 
-/// Sizes of everything that is held value by value, in bytes.
+/// While a file is written: pages that aren't yet full, a block of values, and what deflates it.
+constexpr double of_writing = 1.5 * kibi * kibi, of_texts = 32 * kibi * kibi, of_deflating = 2.5 * kibi * kibi;
+
+/// Sizes of everything that a run holds value by value, and of its files, in bytes.
 struct Parts {
   double points = 0.0, chains = 0.0;
-  double axes = 0.0;          ///< coordinates that are axes of the sweep, which holds them too
-  double coordinates = 0.0;   ///< all of the file
-  double results = 0.0;       ///< all but the log
-  double intermediate = 0.0;  ///< results that aren't in the file, and what numbering the motions takes
-  double motions = 0.0;       ///< those of the ensembles, which are held twice while they are numbered
-  double shares = 0.0;        ///< results of the ensembles, which aren't there yet meanwhile
-  double largest = 0.0;       ///< largest variable of the file
-  double impacts = 0.0;       ///< number of impacts in the log
-  double counts = 0.0;        ///< the numbers of impacts of each point
-  double logged = 0.0;        ///< an impact in the file
+  double axes = 0.0;         ///< values of the sweep's axes
+  double coordinates = 0.0;  ///< all of the file
+  double results = 0.0;      ///< in the file, all but the log
+  double packed = 0.0;       ///< in the journal, all but the log
+  double columns = 0.0;      ///< results in the scratch space, those of texts and logs being pointers
+  double kept = 0.0;         ///< texts and logs there
+  double numbered = 0.0;     ///< in memory, to number the motions by
+  double motions = 0.0;      ///< those of the ensembles, which are held twice while they are numbered
+  double numbers = 0.0;      ///< of the points' motions, and the shares of the ensembles
+  double texts = 0.0;        ///< in the file
+  double impacts = 0.0;      ///< number of impacts in the log
+  double logged = 0.0;       ///< an impact in the file
+  double counts = 0.0;       ///< in the file, the numbers of impacts of each point
 
   [[nodiscard]] double logged_in_file() const { return impacts * logged + counts; }
-  /// All results before the file is built, without the log.
-  [[nodiscard]] double collected() const { return results + intermediate + std::max(0.0, motions - shares); }
+  [[nodiscard]] double output() const { return coordinates + results + logged_in_file(); }
+
+  /// Results in files of the scratch space, as `storage::Scratch` decides it.
+  [[nodiscard]] double in_files() const {
+    const double most = storage::Scratch::most_in_memory;
+    return columns > most ? columns + kept : std::max(0.0, columns + kept - most);
+  }
+  [[nodiscard]] double in_memory() const {
+    return columns + kept - in_files() + std::min(in_files(), files_resident) + numbered;
+  }
+  [[nodiscard]] double writing(int level) const {
+    return of_writing + std::min(texts, of_texts) + (level > 0 ? of_deflating : 0.0);
+  }
 };
 
 void add_coordinates(const sweep::Sweep& sweep, bool is_shard, Parts& parts) {
   for (const sweep::Dimension& dimension : sweep.dimensions) {
-    const double axis = value * static_cast<double>(length(dimension));
-    parts.axes += axis * static_cast<double>(dimension.size());
-    parts.largest = std::max(parts.largest, axis);
+    parts.axes += value * static_cast<double>(length(dimension)) * static_cast<double>(dimension.size());
   }
   parts.coordinates = parts.axes;
   if (sweep.direction == sweep::Direction::both) parts.coordinates += 2 * sizeof(std::int8_t);
@@ -67,55 +86,47 @@ void add_numbering(const sweep::Sweep& sweep, Parts& parts) {
   constexpr double few = 4, of_share = 3 * value;
   const double ensembles = std::min(parts.points, static_cast<double>(sweep::ensembles_of(sweep)));
   const double motions = std::min(parts.points, few * ensembles);
-  parts.motions = attractors::bytes_of_motion * motions;
-  parts.shares = (value + std::min(few, parts.points / ensembles) * of_share) * ensembles;
-  parts.results += sizeof(std::int32_t) * parts.points + parts.shares;
-  parts.intermediate += parts.motions + sizeof(std::uint32_t) * ensembles;
+  parts.motions = attractors::bytes_of_motion * motions + sizeof(std::uint32_t) * ensembles;
+  const double shares = (value + std::min(few, parts.points / ensembles) * of_share) * ensembles;
+  parts.numbers = sizeof(std::int32_t) * parts.points + shares;
+  parts.results += parts.numbers;
 }
 
 Parts parts_of(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard, double impacts) {
   const sweep::Share share(sweep, shard);
   Parts parts{.points = static_cast<double>(share.points()), .chains = static_cast<double>(share.count())};
   add_coordinates(sweep, shard.has_value(), parts);
-  parts.results = (sizeof(std::uint8_t) + sizeof(std::int64_t) + value) * parts.points;  // status, impacts, periods
-  parts.largest = std::max(parts.largest, value * parts.points);
+  const observables::Observe& observe = sweep.problem.observe;
+  const double always =
+      (sizeof(std::uint8_t) + sizeof(std::int64_t) + value) * parts.points;  // status, impacts, periods
+  parts.results = parts.packed = parts.columns = always;
   for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.problem)) {
-    const double bytes = (output.text ? short_text : static_cast<double>(output.width()) * value) * parts.points;
-    if (output.intermediate && !shard) {
-      parts.intermediate += bytes;
-      continue;
-    }
-    parts.results += bytes, parts.largest = std::max(parts.largest, bytes);
+    const double bytes = static_cast<double>(output.width()) * value * parts.points;
+    const double in_file = output.text ? text_in_file * parts.points : bytes;
+    parts.packed += output.text ? kept_text * parts.points : bytes;
+    if (!output.intermediate || shard) parts.results += in_file;
+    if (output.text) parts.texts += in_file, parts.kept += kept_text * parts.points;
+    (observe.attractor && output.intermediate ? parts.numbered : parts.columns) +=
+        output.text ? pointer * parts.points : bytes;
   }
-  if (sweep.problem.observe.attractor) add_numbering(sweep, parts);
-  if (!sweep.problem.observe.impact_log) return parts;
+  if (observe.attractor) add_numbering(sweep, parts);
+  if (!observe.impact_log) return parts;
   parts.impacts = impacts, parts.counts = sizeof(std::int64_t) * parts.points;
   parts.logged = static_cast<double>(observables::log_columns(is_shaken(sweep)).size()) * value + sizeof(std::int8_t);
-  parts.largest = std::max(parts.largest, value * impacts);
+  parts.columns += pointer * parts.points;
+  parts.kept += logged_head * parts.points + logged_impact * impacts;
   return parts;
 }
 
-/// The log while points are computed, one vector for each.
-double held_log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
-  if (!sweep.problem.observe.impact_log) return 0.0;
-  return (sizeof(std::vector<observables::LoggedImpact>) + heap) * parts.points + held_impact * parts.impacts;
-}
-
-/// The log while its columns are made. Blocks of long logs are returned to the system one after the other meanwhile.
-double log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
-  const double held = held_log_bytes(sweep, parts), columns = parts.logged_in_file();
-  const bool alone = held_impact * parts.impacts >= lone_block * parts.points;
-  return alone ? std::max(held, columns) : held + columns;
+/// The part of the log in what is held in memory.
+double log_in_memory(const Parts& parts) {
+  const double log = logged_impact * parts.impacts, all = parts.columns + parts.kept;
+  return all > 0 ? log * parts.in_memory() / all : 0.0;
 }
 
 /// A chain that is packed to be saved.
-double saving_bytes(const sweep::Sweep& sweep, const Parts& parts, double log) {
-  return sweep.follow && parts.chains > 0 ? (parts.results + log) / parts.chains : 0.0;
-}
-
-/// While the file is built: coordinates and results are in one place or the other, the largest variable in both.
-double building_bytes(const Parts& parts) {
-  return parts.coordinates + parts.results + parts.logged_in_file() + parts.largest;
+double saving_bytes(const sweep::Sweep& sweep, const Parts& parts) {
+  return sweep.follow && parts.chains > 0 ? (parts.packed + logged_impact * parts.impacts) / parts.chains : 0.0;
 }
 
 double before_bytes(const Parts& parts, int threads) { return program + thread * threads + parts.axes; }
@@ -168,29 +179,30 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::S
 MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard, int threads,
                        double impacts) {
   const Parts parts = parts_of(sweep, shard, impacts);
-  const double log = log_bytes(sweep, parts),
-               held = parts.results + parts.intermediate + parts.chains;  // a byte tells a chain's state
-  const double working = threads * value * observables::All::values_held(sweep.problem.observe);
-  const double running = held + log + std::max(working, saving_bytes(sweep, parts, log));
-  const double collecting = parts.coordinates + parts.collected() + parts.chains + log;
-  const double building = parts.chains + building_bytes(parts);
-  return {.output = parts.coordinates + parts.results + parts.logged_in_file(),
-          .memory = before_bytes(parts, threads) + std::max({running, collecting, building}),
-          .log = log};
+  const double bits = 2 * parts.chains / 8;  // of the chains' states
+  const double working =
+      std::max(threads * value * observables::All::values_held(sweep.problem.observe), saving_bytes(sweep, parts));
+  const double numbering = parts.motions + std::max(parts.motions, parts.numbers);
+  const double writing = parts.numbers + parts.writing(1);
+  return {.output = parts.output(),
+          .memory = before_bytes(parts, threads) + bits + parts.in_memory() +
+                    std::max({working, sweep.problem.observe.attractor ? numbering : 0.0, writing}),
+          .log = sweep.problem.observe.impact_log ? log_in_memory(parts) : 0.0,
+          .in_files = parts.in_files(),
+          .journal = parts.packed + logged_impact * parts.impacts,
+          .logged = parts.impacts * parts.logged,
+          .merging = merge_bytes(sweep, shard ? impacts * static_cast<double>(shard->of) : impacts)};
 }
 
-double merge_bytes(const sweep::Sweep& sweep, std::span<const ShardSize> shards) {
-  double impacts = 0.0, largest = 0.0;
-  for (const ShardSize& size : shards) {
-    const Parts shard = parts_of(sweep, size.shard, static_cast<double>(size.impacts));
-    impacts += static_cast<double>(size.impacts);
-    largest = std::max(largest, shard.coordinates + shard.results + shard.logged_in_file());
-  }
+double merge_bytes(const sweep::Sweep& sweep, double impacts) {
   const Parts parts = parts_of(sweep, std::nullopt, impacts);
-  const double log = log_bytes(sweep, parts),
-               reading = parts.results + parts.intermediate + held_log_bytes(sweep, parts) + largest;
-  return before_bytes(parts, 0) +
-         std::max({reading, parts.coordinates + parts.collected() + log, building_bytes(parts)});
+  double of_point = value;  // of the variable that has most
+  for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.problem))
+    of_point = std::max(of_point, output.text ? text_in_file : static_cast<double>(output.width()) * value);
+  const double most = sweep::joined_at_once;
+  const double block = 2 * std::min(most, of_point * parts.points), log = 2 * std::min(most, value * impacts);
+  const double numbering = parts.numbered + parts.motions + std::max(parts.motions, parts.numbers);
+  return before_bytes(parts, 0) + std::max(numbering, parts.numbers + block + log + parts.writing(1));
 }
 
 double expected_impacts(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard) {

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 
 #include "sweep/share.hpp"
 #include "sweep/sweep.hpp"
@@ -14,6 +13,13 @@ struct MemoryNeed {
   double output = 0.0;  ///< the file before compression: results and coordinates
   double memory = 0.0;  ///< peak memory, the program included, so that a sweep that can't fit is refused before the run
   double log = 0.0;     ///< the impact log's part of `memory`: an estimate, as its length isn't known before the run
+  double in_files = 0.0;  ///< results that don't go into memory: in files beside the output until that is written
+  double journal = 0.0;   ///< the journal, if the run isn't over within a second
+  double logged = 0.0;    ///< the impact log's part of `output`, an estimate
+  double merging = 0.0;   ///< memory in which shards of this size are merged into the whole sweep
+
+  /// The most that a run takes of its disk: its journal and, for a while, its results twice.
+  [[nodiscard]] double disk() const { return output + in_files + journal; }
 };
 
 /// The need of a sweep, or of a shard.
@@ -24,14 +30,8 @@ struct MemoryNeed {
 [[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard, int threads,
                                      double impacts);
 
-/// A shard and the length of its impact log.
-struct ShardSize {
-  results::Shard shard;
-  std::size_t impacts = 0;
-};
-
-/// Bytes that merging shards takes: those of a run that has all results already, and those of the largest shard.
-[[nodiscard]] double merge_bytes(const sweep::Sweep& sweep, std::span<const ShardSize> shards);
+/// Bytes of memory that merging the shards of a sweep takes, with so many impacts in all logs.
+[[nodiscard]] double merge_bytes(const sweep::Sweep& sweep, double impacts);
 
 /// An estimate of the impacts in the log of a sweep or a shard, from short runs of a few of its points.
 [[nodiscard]] double expected_impacts(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard);

@@ -120,7 +120,7 @@ Plan plan_of(const sweep::Sweep& sweep, const sweep::RunOptions& options, const 
       1 - static_cast<double>(plan.mirror_images) / static_cast<double>(std::max<std::size_t>(1, plan.points));
   for (Group& group : plan.groups) group.periods = group.periods * run, group.seconds = group.seconds * run;
   plan.need = need;
-  plan.available_memory = memory_limit(options.threads).bytes;
+  plan.available_memory = memory_limit(options.threads, need.in_files).besides(need.in_files);
   warn(sweep, survey, plan);
   return plan;
 }

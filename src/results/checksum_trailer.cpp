@@ -3,6 +3,7 @@
 #include <nettle/sha2.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -15,14 +16,6 @@
 
 namespace clatter::results {
 namespace {
-
-/// The trailer; always of the same length, so that a reader finds its beginning.
-std::string checksum_trailer_of(std::uint64_t length, std::uint32_t crc) {
-  std::array<char, 64> line{};
-  std::snprintf(line.data(), line.size(), "\nclatter shard of %20llu bytes, CRC-32 %08x\n",
-                static_cast<unsigned long long>(length), crc);
-  return line.data();
-}
 
 /// Reads a whole file, piece by piece.
 class Pieces {
@@ -44,8 +37,24 @@ class Pieces {
 
 }  // namespace
 
-std::string checksum_trailer_of(std::span<const std::byte> bytes) {
-  return checksum_trailer_of(bytes.size(), storage::crc32_of(bytes));
+/// Always of the same length, so that a reader finds its beginning.
+std::string checksum_trailer_of(std::uint64_t length, std::uint32_t crc) {
+  std::array<char, 64> line{};
+  std::snprintf(line.data(), line.size(), "\nclatter shard of %20llu bytes, CRC-32 %08x\n",
+                static_cast<unsigned long long>(length), crc);
+  return line.data();
+}
+
+void add_checksum(storage::FileWriter& file, std::uint64_t length) {
+  std::vector<std::byte> piece(std::size_t{1} << 18);
+  std::uint32_t crc = 0;
+  for (std::uint64_t at = 0; at < length; at += piece.size()) {
+    const auto read = std::span(piece).first(std::min<std::uint64_t>(piece.size(), length - at));
+    file.read(at, read);
+    crc = storage::crc32_of(read, crc);
+  }
+  const std::string trailer = checksum_trailer_of(length, crc);
+  file.write(length, std::as_bytes(std::span(trailer)));
 }
 
 void require_checksum(const std::string& path) {

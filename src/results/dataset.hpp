@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,17 +16,22 @@ namespace clatter::results {
 using ValueArray = std::variant<std::vector<double>, std::vector<std::uint8_t>, std::vector<std::int8_t>,
                                 std::vector<std::int32_t>, std::vector<std::int64_t>, std::vector<std::string>>;
 
+/// Gives the next values of a variable, as many as are asked for, from the first one to the last; they are made while
+/// the variable is written, so that they are never all in memory.
+using NextValues = std::function<ValueArray(std::size_t count)>;
+
 using Attribute = std::pair<std::string, std::variant<std::string, double, std::vector<std::uint8_t>>>;
 
 /// A named array of results. A variable that has the name of its only dimension is that dimension's coordinate.
 struct Variable {
   std::string name;
   std::vector<std::string> dimensions;  ///< names, slowest first; empty: a scalar
-  ValueArray values;
+  ValueArray values;                    ///< all of them, or none, but of their type, if there is `next`
   std::string long_name;
   std::string units;                    ///< "1", "rad" for phases; of a [machine] those of the SI
   std::vector<Attribute> attributes{};  ///< besides long_name and units, e.g. flag_values; the writer adds _FillValue
   std::string missing_if{};             ///< when a value is NaN or an empty text, in words for the help; not in files
+  NextValues next{};                    ///< gives the values instead; empty: `values` has them
 };
 
 /// The names of all variables of texts, in files of any command; the others hold numbers.
@@ -43,6 +49,9 @@ struct Dataset {
   std::vector<Variable> variables;
   std::vector<Attribute> attributes{};  ///< of the file, besides those of its origin
 };
+
+/// Puts the values of all variables into `values`.
+void collect(Dataset& dataset);
 
 /// The values of a variable; nullptr if the dataset has none of this type and name.
 template <class T>

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "results/dataset.hpp"
+#include "storage/file_writer.hpp"
 
 namespace clatter::results {
 
@@ -18,19 +17,17 @@ struct FileHead {
   int compression = 0;  ///< deflate level, 0 ... 9
 };
 
-/// The bytes of a file in the memory of the library that made them, since a copy would take their size again.
-struct FileImage {
-  std::shared_ptr<const void> owner;  ///< keeps the bytes alive
-  std::span<const std::byte> bytes;
-};
-
-/// The bytes of an HDF5 file that is netCDF-4 too: dimension scales, attributes, the whole configuration
-/// (src/results/README.md). The same dataset and head give the same bytes. Releases the memory of each
-/// variable once it is in the image, so that a run holds its results once and one variable twice.
-[[nodiscard]] FileImage file_image(Dataset dataset, const FileHead& head);
+/// Writes an HDF5 file that is netCDF-4 too: dimension scales, attributes, the whole configuration
+/// (src/results/README.md). The same dataset and head give the same bytes, whether its values are in memory or made
+/// meanwhile. Takes the values out of the dataset: the memory of a variable is released once it is written. Throws
+/// IoError.
+void write_file(storage::FileWriter& file, Dataset dataset, const FileHead& head);
 
 /// The same with a checksum trailer (`require_checksum`), for a file that another run of clatter will read.
-[[nodiscard]] FileImage image_with_checksum(Dataset dataset, const FileHead& head);
+void write_file_with_checksum(storage::FileWriter& file, Dataset dataset, const FileHead& head);
+
+/// The bytes of such a file.
+[[nodiscard]] std::vector<std::byte> file_image(Dataset dataset, const FileHead& head);
 
 /// The contents of a file that `clatter info` prints; shapes are dimension names with their lengths.
 struct FileSummary {

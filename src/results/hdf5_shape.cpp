@@ -26,6 +26,11 @@ Shape shape_of(hid_t dataset) {
   return shape;
 }
 
+Handle space_of(const Shape& shape) {
+  if (shape.empty()) return {H5Screate(H5S_SCALAR), H5Sclose};
+  return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
+}
+
 std::size_t count(const Shape& shape) {
   std::size_t product = 1;
   for (const hsize_t length : shape) product *= length;
@@ -43,22 +48,31 @@ Shape blocks_of(const Shape& shape, std::size_t value_size) {
   return blocks;
 }
 
-void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<void(std::size_t)>& take,
-                 hid_t transfer) {
-  const Shape shape = shape_of(dataset);
+void each_block(const Shape& shape, std::size_t value_size,
+                const std::function<void(hid_t space, std::size_t values)>& visit) {
   if (std::ranges::find(shape, hsize_t{0}) != shape.end()) return;
-  const Handle space{H5Dget_space(dataset), H5Sclose};
-  const Shape blocks = blocks_of(shape, H5Tget_size(type));
+  const Handle space = space_of(shape);
+  const Shape blocks = blocks_of(shape, value_size);
   Shape begin(shape.size(), 0), size(shape.size(), 1);
   do {
     for (std::size_t d = 0; d < shape.size(); ++d) size[d] = std::min(blocks[d], shape[d] - begin[d]);
     if (!shape.empty())
       checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, begin.data(), nullptr, size.data(), nullptr));
-    const hsize_t values = count(size);
-    const Handle room{H5Screate_simple(1, &values, nullptr), H5Sclose};
-    checked(H5Dread(dataset, type, room, space, transfer, memory));
-    take(static_cast<std::size_t>(values));
+    visit(space, count(size));
   } while (advance(begin, blocks, shape));
+}
+
+Handle room_for(std::size_t values) {
+  const hsize_t length = values;
+  return {H5Screate_simple(1, &length, nullptr), H5Sclose};
+}
+
+void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<void(std::size_t)>& take,
+                 hid_t transfer) {
+  each_block(shape_of(dataset), H5Tget_size(type), [&](hid_t space, std::size_t values) {
+    checked(H5Dread(dataset, type, room_for(values), space, transfer, memory));
+    take(values);
+  });
 }
 
 }  // namespace clatter::results::detail

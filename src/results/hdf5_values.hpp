@@ -17,6 +17,9 @@ namespace clatter::results::detail {
 /// All values of a variable, in the type that clatter writes. Throws Failure.
 [[nodiscard]] ValueArray values_of(hid_t dataset);
 
+/// The values of some rows of a variable, those of its first dimension from `first` on. Throws Failure.
+[[nodiscard]] ValueArray rows_of(hid_t dataset, std::size_t first, std::size_t rows);
+
 /// Reads all values of a variable block by block, and keeps none. Throws Failure.
 void try_values(hid_t dataset);
 

@@ -59,11 +59,12 @@ void OutputPlace::require_replaceable() const {
   if (!why.empty()) storage::refuse(path_, why, storage::instead_of_replacing(path_));
 }
 
-void OutputPlace::write_atomically(std::span<const std::byte> bytes, const storage::MakeRoom& make_room) const {
+void OutputPlace::write_atomically(const std::function<void(storage::FileWriter&)>& write,
+                                   const storage::MakeRoom& make_room) const {
   const auto look_again = [&] {
     if (state() != seen_) require_replaceable();
   };
-  storage::write_atomically(path_, bytes, {.make_room = make_room, .before_rename = look_again});
+  storage::write_atomically(path_, write, {.make_room = make_room, .before_rename = look_again});
 }
 
 }  // namespace clatter::results

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "results/origin.hpp"
@@ -22,7 +21,8 @@ class OutputPlace {
   [[nodiscard]] const std::string& path() const { return path_; }
 
   /// As `storage::write_atomically`; also throws IoError if a file has appeared meanwhile that must not be replaced.
-  void write_atomically(std::span<const std::byte> bytes, const storage::MakeRoom& make_room = storage::no_room) const;
+  void write_atomically(const std::function<void(storage::FileWriter&)>& write,
+                        const storage::MakeRoom& make_room = storage::no_room) const;
 
  private:
   /// Device, inode, size and times of a file, which tell whether it is another one or has changed.

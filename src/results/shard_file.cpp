@@ -62,7 +62,7 @@ std::uint64_t values_in(const Handle& file) {
   return static_cast<std::uint64_t>(values);
 }
 
-/// Reads all values as `read_shard` does, and keeps none.
+/// Reads all values as `ShardReader` does, and keeps none.
 void try_values(const Handle& file) {
   walk_variables(file, [](const std::string&, const Handle& dataset) { detail::try_values(dataset); });
 }
@@ -94,8 +94,8 @@ void pass_all(Pass& pass, Header& header) {
     pass(*text);
 }
 
-/// Throws if a shard claims more values than its size can hold or a run of its configuration writes, since all of them
-/// are read into memory.
+/// Throws if a shard claims more values than its size can hold or a run of its configuration writes, since a run of
+/// its configuration has to have all of them.
 void require_possible(const ShardHeader& header, std::uint64_t stored_bytes, const MostValues& most_values) {
   const auto values = static_cast<double>(header.values);
   if (values > detail::most_deflated * static_cast<double>(stored_bytes))
@@ -137,14 +137,47 @@ ShardHeader read_shard_header(const std::string& path, const MostValues& most_va
   refuse(path, death.what());
 }
 
-Dataset read_shard(const std::string& path) {
-  return read_file(path, [](const Handle& file) {
-    Dataset dataset;
-    walk_variables(file, [&](const std::string& name, const Handle& variable) {
-      dataset.variables.push_back({name, {}, detail::values_of(variable), "", ""});
-    });
-    return dataset;
-  });
+/// The file, and of its variables the one that is read.
+struct ShardReader::Open {
+  explicit Open(const std::string& path) : file(detail::open_file(path)) {}
+
+  detail::QuietErrors quiet;
+  Handle file;
+  std::string name;
+  std::optional<Handle> variable;
+};
+
+ShardReader::ShardReader(std::string path) : path_(std::move(path)) {}
+ShardReader::ShardReader(ShardReader&&) noexcept = default;
+ShardReader& ShardReader::operator=(ShardReader&&) noexcept = default;
+ShardReader::~ShardReader() = default;
+
+ShardReader::Open& ShardReader::open(const std::string& variable) {
+  if (!open_) open_ = std::make_unique<Open>(path_);
+  if (open_->variable && open_->name == variable) return *open_;
+  open_->variable.reset(), open_->name = variable;
+  if (checked(H5Lexists(open_->file, variable.c_str(), H5P_DEFAULT)) > 0)
+    open_->variable.emplace(detail::open_variable(open_->file, variable));
+  return *open_;
 }
+
+std::optional<std::size_t> ShardReader::rows(const std::string& variable) try {
+  const Open& there = open(variable);
+  if (!there.variable) return std::nullopt;
+  const detail::Shape shape = detail::shape_of(*there.variable);
+  return shape.empty() ? 1 : static_cast<std::size_t>(shape.front());
+} catch (const detail::Failure& failure) {
+  refuse(path_, failure.what());
+}
+
+ValueArray ShardReader::values(const std::string& variable, std::size_t first, std::size_t rows) try {
+  const Open& there = open(variable);
+  if (!there.variable) throw detail::Failure("it has no '" + variable + "'");
+  return detail::rows_of(*there.variable, first, rows);
+} catch (const detail::Failure& failure) {
+  refuse(path_, failure.what());
+}
+
+void ShardReader::close() { open_.reset(); }
 
 }  // namespace clatter::results

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -28,7 +30,27 @@ using MostValues = std::function<std::optional<double>(const ShardHeader&)>;
 /// IoError.
 [[nodiscard]] ShardHeader read_shard_header(const std::string& path, const MostValues& most_values);
 
-/// Reads the variables of a shard, names and values alone. Throws IoError.
-[[nodiscard]] Dataset read_shard(const std::string& path);
+/// Reads parts of a shard's file whose header has been read. Throws IoError.
+class ShardReader {
+ public:
+  explicit ShardReader(std::string path);
+  ShardReader(ShardReader&&) noexcept;
+  ShardReader& operator=(ShardReader&&) noexcept;
+  ~ShardReader();
+
+  /// The number of rows of a variable, the length of its first dimension; nothing if the file has none of this name.
+  [[nodiscard]] std::optional<std::size_t> rows(const std::string& variable);
+  /// The values of so many of its rows, from `first` on.
+  [[nodiscard]] ValueArray values(const std::string& variable, std::size_t first, std::size_t rows);
+  /// Closes the file until it is read again.
+  void close();
+
+ private:
+  struct Open;
+  [[nodiscard]] Open& open(const std::string& variable);
+
+  std::string path_;
+  std::unique_ptr<Open> open_;
+};
 
 }  // namespace clatter::results

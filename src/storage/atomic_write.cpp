@@ -2,13 +2,10 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <string>
 
 #include "storage/error.hpp"
@@ -51,13 +48,6 @@ void check_target(const fs::path& path) {
   }
 }
 
-/// Free bytes in the file system of a target, quotas aside; the largest number if it doesn't tell.
-std::uint64_t room_at(const fs::path& target) {
-  struct statvfs system {};
-  if (::statvfs(directory_of(target).c_str(), &system) != 0) return std::numeric_limits<std::uint64_t>::max();
-  return std::uint64_t{system.f_bavail} * system.f_frsize;
-}
-
 }  // namespace
 
 void check_writable(const std::string& path) {
@@ -68,18 +58,22 @@ void check_writable(const std::string& path) {
   check_directory(target);
 }
 
-void write_atomically(const std::string& path, std::span<const std::byte> bytes, const WriteSteps& steps) {
+void write_atomically(const std::string& path, const std::function<void(FileWriter&)>& write, const WriteSteps& steps) {
   check_writable(path);
   const fs::path target = target_of(path);
   remove_abandoned(target);
-  const std::uint64_t needed = bytes.size() + bytes.size() / 64 + 64UL * 1024;  // with the file system's own records
-  if (const std::uint64_t room = room_at(target); room < needed) steps.make_room(needed - room);
   TemporaryFile file{target};
-  file.write(bytes);
+  FileWriter writer(file.descriptor(), target, steps.make_room);
+  write(writer);
   file.sync();
   steps.before_rename();
   file.become_target();
   sync_directory(target);
+}
+
+void write_atomically(const std::string& path, std::string_view text, const WriteSteps& steps) {
+  write_atomically(
+      path, [text](FileWriter& file) { file.write(0, std::as_bytes(std::span(text))); }, steps);
 }
 
 }  // namespace clatter::storage

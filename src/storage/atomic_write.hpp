@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <span>
 #include <string>
+#include <string_view>
+
+#include "storage/file_writer.hpp"
 
 namespace clatter::storage {
 
@@ -12,22 +12,19 @@ namespace clatter::storage {
 /// permission, an older file that is write-protected. Changes nothing.
 void check_writable(const std::string& path);
 
-/// Frees disk space, if it can, in a file system that lacks so many bytes.
-using MakeRoom = std::function<void(std::uint64_t bytes)>;
-
-/// Frees nothing.
-inline void no_room(std::uint64_t) {}
-
 /// Steps within an atomic write; each may throw, and then the file doesn't appear.
 struct WriteSteps {
   MakeRoom make_room = no_room;
   std::function<void()> before_rename = [] {};  ///< called last, while an older file is still there
 };
 
-/// Makes `bytes` appear at `path` completely or not at all: temporary file beside it, fsync, rename, fsync of the
-/// directory. A symbolic link is followed, as by a redirection of the shell: it stays, and the file that it names is
-/// replaced. The new file has the mode, and if permitted the owner and group, of the one it replaces. Throws IoError
-/// and removes the temporary file if that fails; an older file is then untouched.
-void write_atomically(const std::string& path, std::span<const std::byte> bytes, const WriteSteps& steps = {});
+/// Makes a file that `write` writes appear at `path` completely or not at all: temporary file beside it, fsync, rename,
+/// fsync of the directory. A symbolic link is followed, as by a redirection of the shell: it stays, and the file that
+/// it names is replaced. The new file has the mode, and if permitted the owner and group, of the one it replaces.
+/// Throws IoError and removes the temporary file if that fails; an older file is then untouched.
+void write_atomically(const std::string& path, const std::function<void(FileWriter&)>& write,
+                      const WriteSteps& steps = {});
+/// The same with the bytes of a text.
+void write_atomically(const std::string& path, std::string_view text, const WriteSteps& steps = {});
 
 }  // namespace clatter::storage

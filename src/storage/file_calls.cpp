@@ -1,11 +1,13 @@
 #include "storage/file_calls.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
@@ -77,12 +79,15 @@ void sync_directory(const fs::path& file) {
 
 fs::path directory_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path{"."}; }
 
-/// In small pieces: for large ones Linux takes large pages for its cache, and on a virtual machine the host often has
-/// to provide these first, at ten times the cost.
+Descriptor memory_file() {
+  Descriptor file{::memfd_create("clatter", MFD_CLOEXEC)};
+  if (file.number() < 0) throw std::bad_alloc();
+  return file;
+}
+
 void write_all(const Descriptor& file, std::span<const std::byte> bytes, const fs::path& named) {
-  constexpr std::size_t piece = 64UL * 1024;  // bytes
   while (!bytes.empty()) {
-    const std::size_t next = std::min(bytes.size(), piece);
+    const std::size_t next = std::min(bytes.size(), written_at_once);
     const ssize_t written = uninterrupted([&] { return ::write(file.number(), bytes.data(), next); });
     if (written < 0) refuse(named, errno);
     bytes = bytes.subspan(static_cast<std::size_t>(written));

@@ -101,14 +101,15 @@ void remove_abandoned(const fs::path& target) {
   }
 }
 
-TemporaryFile::TemporaryFile(fs::path target)
-    : target_{std::move(target)}, path_{temporary_name(target_)}, file_{create()} {}
+Descriptor nameless_file(const fs::path& directory, mode_t mode) {
+  return Descriptor{uninterrupted([&] { return ::open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode); })};
+}
+
+TemporaryFile::TemporaryFile(fs::path target) : target_{std::move(target)}, file_{create()} {}
 
 TemporaryFile::~TemporaryFile() {
   if (!path_.empty()) ::unlink(path_.c_str());
 }
-
-void TemporaryFile::write(std::span<const std::byte> bytes) { write_all(file_, bytes, target_); }
 
 void TemporaryFile::sync() {
   if (uninterrupted([&] { return ::fsync(file_.number()); }) != 0) refuse(target_, errno);
@@ -116,19 +117,59 @@ void TemporaryFile::sync() {
 
 void TemporaryFile::become_target() {
   if (const std::optional<Access> older = access_of(target_)) take_over(file_, *older);
+  if (path_.empty()) give_name();
   if (::rename(path_.c_str(), target_.c_str()) != 0) refuse(target_, errno);
   path_.clear();
 }
 
-/// Creates the file with the permissions of a new file, or closed to others until it takes over those of an older one;
-/// O_EXCL, so that it is never another run's file.
+namespace {
+
+/// The file that a descriptor has open, as a path.
+std::string path_of(const Descriptor& file) { return "/proc/self/fd/" + std::to_string(file.number()); }
+
+}  // namespace
+
+/// Only a file with a name can replace another one.
+void TemporaryFile::give_name() {
+  for (;;) {
+    fs::path name = temporary_name(target_);
+    if (::linkat(AT_FDCWD, path_of(file_).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+      path_ = std::move(name);
+      return;
+    }
+    if (errno != EEXIST) refuse(target_, errno);
+  }
+}
+
+/// Creates the file with the permissions of a new file, or closed to others until it takes over those of an older one.
 Descriptor TemporaryFile::create() {
   const std::optional<Access> older = access_of(target_);
   const mode_t mode = older ? (older->mode & 0666U) | 0600U : 0666U;
-  for (;; path_ = temporary_name(target_)) {
-    Descriptor file{
-        uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode); })};
-    if (file.number() < 0 && errno != EEXIST) refuse(target_, errno);
+  Descriptor file = create_nameless(mode);
+  return file.number() >= 0 ? std::move(file) : create_named(mode);
+}
+
+/// No file, if there can't be one that gets a name later.
+Descriptor TemporaryFile::create_nameless(mode_t mode) const {
+  Descriptor file = nameless_file(directory_of(target_), mode);
+  if (file.number() < 0) {
+    if (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT && errno != EINVAL) refuse(target_, errno);
+  } else if (::access(path_of(file).c_str(), F_OK) != 0 || (!lock(file) && errno == EWOULDBLOCK)) {
+    return Descriptor{-1};
+  }
+  return file;
+}
+
+/// O_EXCL, so that it is never another run's file.
+Descriptor TemporaryFile::create_named(mode_t mode) {
+  for (;;) {
+    path_ = temporary_name(target_);
+    Descriptor file{uninterrupted([&] { return ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode); })};
+    if (file.number() < 0 && errno != EEXIST) {
+      const int error = errno;
+      path_.clear();
+      refuse(target_, error);
+    }
     // Another process may take it for abandoned before it is locked.
     if (file.number() >= 0 && (lock(file) || errno != EWOULDBLOCK) && is_named(file, path_)) return file;
   }

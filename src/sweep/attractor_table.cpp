@@ -11,6 +11,7 @@
 
 #include "sweep/dataset_axes.hpp"
 #include "sweep/parallel.hpp"
+#include "sweep/share.hpp"
 
 namespace clatter::sweep {
 namespace {
@@ -138,14 +139,28 @@ attractors::SectionState example_state(const Sweep& sweep, const attractors::Num
 
 }  // namespace
 
-attractors::Numbering numbering_of(const Sweep& sweep, int threads, const PointEndings& endings) {
+std::optional<attractors::Numbering> numbering_by(
+    const Sweep& sweep, const std::optional<results::Shard>& shard, int threads,
+    const std::function<std::span<const double>(std::string_view output)>& numbers_of) {
+  if (!sweep.problem.observe.attractor) return std::nullopt;
+  const bool loose = sweep.problem.observe.loose_attractor;
+  const std::span<const double> none,
+      x = numbers_of("attractor_x"), v = numbers_of("attractor_v"), periods = numbers_of("attractor_periods"),
+      z = loose ? numbers_of("attractor_z") : none, w = loose ? numbers_of("attractor_w") : none;
+  const Share share(sweep, shard);
   return attractors::number_motions(
       {.grid = grid_of(sweep),
        .has_phases = varies_phase(sweep),
        .problem = [&](std::size_t point) { return problem_at(sweep, point % size_one_way(sweep)); },
-       .index = endings.index,
-       .count = endings.count,
-       .ending = endings.ending,
+       .index = [&](std::size_t point) -> std::optional<std::size_t> {
+         const std::size_t index = share.points_before(point);
+         return index < share.points() && share.point_at(index) == point ? std::optional(index) : std::nullopt;
+       },
+       .count = share.points(),
+       .ending =
+           [&](std::size_t i) {
+             return attractors::Ending{{x[i], v[i], loose ? z[i] : 0.0, loose ? w[i] : 0.0}, periods[i]};
+           },
        .for_each = [threads](std::size_t count,
                              const std::function<void(std::size_t)>& work) { for_each(count, threads, work); }});
 }

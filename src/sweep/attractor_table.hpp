@@ -3,25 +3,25 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "attractors/numbering.hpp"
 #include "results/dataset.hpp"
+#include "results/shard.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::sweep {
 
-/// Where the points of a run ended.
-struct PointEndings {
-  std::size_t count = 0;                                               ///< of results
-  std::function<std::optional<std::size_t>(std::size_t point)> index;  ///< of a point of the sweep; nothing: not run
-  std::function<attractors::Ending(std::size_t index)> ending;
-};
-
-/// Numbers the motions that the points of a sweep end in. Ensembles are the points that differ only in x0, v0, phase,
-/// start_period, the start of a loose mass and the direction of `follow`. Throws std::bad_alloc.
-[[nodiscard]] attractors::Numbering numbering_of(const Sweep& sweep, int threads, const PointEndings& endings);
+/// Numbers the motions that the points of a sweep, or of a shard, end in, by their intermediate outputs; nothing if
+/// attractors aren't observed. `numbers_of` gives an output's values by local index (`Share`). Ensembles are the points
+/// that differ only in x0, v0, phase, start_period, the start of a loose mass and the direction of `follow`. Throws
+/// std::bad_alloc.
+[[nodiscard]] std::optional<attractors::Numbering> numbering_by(
+    const Sweep& sweep, const std::optional<results::Shard>& shard, int threads,
+    const std::function<std::span<const double>(std::string_view output)>& numbers_of);
 
 /// Number of ensembles of a sweep.
 [[nodiscard]] std::size_t ensembles_of(const Sweep& sweep);

@@ -43,9 +43,14 @@ void add_axes(const Sweep& sweep, results::Dataset& dataset) {
     for (const Axis& axis : dimension) {
       dataset.variables.push_back({std::string(axis.parameter.key()),
                                    {std::string(name_of(dimension))},
-                                   axis.values,
+                                   std::vector<double>(),
                                    std::string(axis.parameter.long_name(is_si)),
                                    std::string(unit_of(axis.parameter.row().quantity, is_si))});
+      dataset.variables.back().next = [&axis, at = std::size_t{0}](std::size_t count) mutable {
+        const auto values = std::span(axis.values).subspan(at, count);
+        at += count;
+        return std::vector<double>(values.begin(), values.end());
+      };
       name_frame(sweep, frame_of(axis.parameter), dataset.variables.back());
     }
   }

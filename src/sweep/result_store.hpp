@@ -2,27 +2,30 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "attractors/numbering.hpp"
 #include "point/point.hpp"
 #include "results/dataset.hpp"
+#include "storage/scratch.hpp"
 #include "sweep/output_variables.hpp"
 #include "sweep/share.hpp"
+#include "sweep/status_tally.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::sweep {
 
-/// The results of all points of a run, by their local index (`Share`), and the dataset that they make.
+/// The results of all points of a run, by their local index (`Share`), in a scratch space.
 class ResultStore {
  public:
-  /// Makes room for the results of a whole sweep, or of a shard. Throws std::bad_alloc.
-  explicit ResultStore(const Sweep& sweep, const std::optional<results::Shard>& shard = {});
+  /// Makes room for the results of a whole sweep, or of a shard. Throws std::bad_alloc, storage::IoError.
+  ResultStore(const Sweep& sweep, const std::optional<results::Shard>& shard,
+              std::shared_ptr<storage::Scratch> scratch);
 
   /// Stores a point's result, which is in `units`, in those of the user; different points may be stored at the same
   /// time.
@@ -37,43 +40,48 @@ class ResultStore {
   /// values are then unspecified.
   [[nodiscard]] bool unpack(std::size_t local_index, std::span<const std::byte>& from);
 
-  /// Moves the results of a shard's dataset into those of the whole sweep. Throws std::runtime_error if the dataset
-  /// isn't that of the shard; the values of its points are then unspecified.
-  void take(results::Dataset& dataset, const results::Shard& shard);
-
-  /// The dataset over the sweep's axes, or over the points of a shard. Empties the store.
-  [[nodiscard]] results::Dataset dataset();
-
   /// Numbers the motions that the points end in, once all results are there. Throws std::bad_alloc.
   void number_motions(int threads);
 
-  /// The variables of such a sweep without results: names, dimensions, meanings. There is one motion if attractors are
-  /// numbered. Empties the store.
-  [[nodiscard]] results::Dataset description();
+  /// The dataset over the sweep's axes, or over the points of a shard. Its values are taken from the store while they
+  /// are written, each once.
+  [[nodiscard]] results::Dataset dataset();
 
-  [[nodiscard]] std::size_t failed_points() const;
+  [[nodiscard]] StatusTally statuses() const;
 
  private:
-  using Log = std::vector<observables::LoggedImpact>;
+  using Column = std::shared_ptr<const storage::Region>;
+
+  /// What a point has of a length of its own, a text or a log: the number of its parts, and behind it the parts. A null
+  /// pointer is nothing.
+  using Kept = const std::uint64_t*;
+  template <class Part>
+  static std::span<const Part> parts_of(Kept kept) {
+    return kept == nullptr ? std::span<const Part>() : std::span(reinterpret_cast<const Part*>(kept + 1), *kept);
+  }
+  template <class Part>
+  [[nodiscard]] Kept keep(std::span<const Part> parts);
 
   void to_users_units(std::size_t local_index, const Units& units);
-  void add_coordinates(results::Dataset& dataset) const;
-  void add_always(results::Dataset& dataset);
-  void add_impact_log(results::Dataset& dataset);
-  [[nodiscard]] std::vector<double>& values_of(std::string_view output);
-  void take_impact_log(results::Dataset& dataset, std::span<const std::int64_t> numbers);
+  [[nodiscard]] std::span<double> values(std::size_t output, std::size_t local_index) const;
+  [[nodiscard]] std::span<Kept> texts(std::size_t output) const { return columns_[output]->as<Kept>(); }
+  [[nodiscard]] std::span<Kept> logs() const { return log_->as<Kept>(); }
+  [[nodiscard]] std::size_t logged() const;
+  [[nodiscard]] results::NextValues values_of(std::string_view variable);
+  [[nodiscard]] std::span<const double> numbers_of(std::string_view output) const;
 
   const Sweep& sweep_;
   std::optional<results::Shard> shard_;
   Share share_;
-  std::vector<std::string> along_;  ///< dimensions of a variable with one value a point
-  std::vector<std::uint8_t> status_;
-  std::vector<std::int64_t> impacts_;
-  std::vector<double> periods_;
+  std::shared_ptr<storage::Scratch> scratch_;
+  std::shared_ptr<storage::Arena> arena_;  ///< of texts and logs
   std::vector<OutputVariable> outputs_;
-  std::vector<std::vector<double>> values_;      ///< [output][local index][width]; empty for texts
-  std::vector<std::vector<std::string>> texts_;  ///< [output][local index]; empty for numbers
-  std::vector<Log> log_;                         ///< [local index]; empty if no log is observed
+  Column status_;                ///< std::uint8_t [local index]
+  Column impacts_;               ///< std::int64_t [local index]
+  Column periods_;               ///< double [local index]
+  std::vector<Column> columns_;  ///< [output]: double [local index][width], of a text Kept [local index]
+  Column log_;                   ///< Kept [local index]; none if no log is observed
+  std::size_t pages_of_point_;   ///< that storing one touches, at most
   std::optional<attractors::Numbering> numbering_;
 };
 

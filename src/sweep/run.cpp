@@ -27,8 +27,14 @@ bool runs_in_lanes(const Sweep& sweep, lanes::InstructionSet arch) {
          integration.shortcuts && !integration.all_effects;
 }
 
-SweepRun::SweepRun(const Sweep& sweep, const std::optional<results::Shard>& shard)
-    : sweep_(sweep), shard_(shard), share_(sweep, shard), store_(sweep, shard), states_(share_.count()) {}
+SweepRun::SweepRun(const Sweep& sweep, const std::optional<results::Shard>& shard,
+                   std::shared_ptr<storage::Scratch> scratch)
+    : sweep_(sweep),
+      shard_(shard),
+      share_(sweep, shard),
+      scratch_(std::move(scratch)),
+      store_(sweep, shard, scratch_),
+      states_(share_.count(), *scratch_) {}
 
 bool SweepRun::restore(std::span<const std::byte> results) {
   while (!results.empty()) {
@@ -36,10 +42,10 @@ bool SweepRun::restore(std::span<const std::byte> results) {
     if (results.size() < sizeof chain) return false;
     std::memcpy(&chain, results.data(), sizeof chain);
     results = results.subspan(sizeof chain);
-    if (chain >= share_.count() || states_[chain] != ChainState::open) return false;
+    if (chain >= share_.count() || states_.is_finished(chain)) return false;
     for (std::size_t i = 0; i < share_.length(); ++i)
       if (!store_.unpack(share_.local_index(chain, i), results)) return false;
-    states_[chain] = ChainState::saved, restored_ += share_.length();
+    states_.save(chain), restored_ += share_.length();
   }
   return true;
 }
@@ -54,11 +60,10 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
   std::vector<std::size_t> packed;
   const auto write_packed = [&] {
     write(results), results.clear();
-    for (const std::size_t chain : packed) states_[chain] = ChainState::saved;
+    for (const std::size_t chain : packed) states_.save(chain);
     packed.clear();
   };
-  for (std::uint64_t chain = 0; chain < share_.count(); ++chain) {
-    if (states_[chain] != ChainState::finished) continue;
+  states_.each_unsaved([&](std::uint64_t chain) {
     std::size_t more = sizeof chain;
     for (std::size_t i = 0; i < share_.length(); ++i) more += store_.most_packed(share_.local_index(chain, i));
     if (more > enough_to_save)
@@ -68,7 +73,7 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
     for (std::size_t i = 0; i < share_.length(); ++i) store_.pack(share_.local_index(chain, i), results);
     packed.push_back(chain);
     if (results.size() >= enough_to_save) write_packed();
-  }
+  });
   if (!results.empty()) write_packed();
 }
 
@@ -87,7 +92,7 @@ void SweepRun::run(const RunOptions& options) {
 
 RunResult SweepRun::result() {
   result_.points = share_.points();
-  result_.failed_points = store_.failed_points();
+  result_.statuses = store_.statuses();
   result_.dataset = store_.dataset();
   if (shard_) {
     result_.dataset.attributes.emplace_back("shard", text_of(*shard_));
@@ -99,7 +104,9 @@ RunResult SweepRun::result() {
 RunResult run(const Sweep& sweep, const RunOptions& options) {
   SweepRun sweep_run(sweep);
   sweep_run.run(options);
-  return sweep_run.result();
+  RunResult result = sweep_run.result();
+  collect(result.dataset);
+  return result;
 }
 
 }  // namespace clatter::sweep

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,8 +13,11 @@
 #include "results/dataset.hpp"
 #include "scene/effects.hpp"
 #include "steady/observed_time.hpp"
+#include "storage/scratch.hpp"
+#include "sweep/chain_states.hpp"
 #include "sweep/result_store.hpp"
 #include "sweep/share.hpp"
+#include "sweep/status_tally.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::sweep {
@@ -50,23 +53,21 @@ struct LaneWork {
 
 /// The results of a sweep, and the work that they took.
 struct RunResult {
-  results::Dataset dataset;       ///< coordinates, status, impact_total, simulated_periods, then what is observed
-  std::size_t points = 0;         ///< points of the sweep, or of the shard
-  std::size_t failed_points = 0;  ///< points whose status is a failure
-  int threads = 1;                ///< threads that were used
-  std::vector<WorkStats> work;    ///< the cheapest compiled set first
+  results::Dataset dataset;     ///< coordinates, status, impact_total, simulated_periods, then what is observed
+  std::size_t points = 0;       ///< points of the sweep, or of the shard
+  StatusTally statuses{};       ///< of all points
+  int threads = 1;              ///< threads that were used
+  std::vector<WorkStats> work;  ///< the cheapest compiled set first
   lanes::InstructionSet arch = lanes::InstructionSet::scalar;  ///< instruction set that was used
   LaneWork lanes;                                              ///< work in SIMD lanes
 };
 
-/// The state of a chain of points.
-enum class ChainState : std::uint8_t { open, finished, saved };
-
 /// A sweep, or a shard of it, on its way to its results.
 class SweepRun {
  public:
-  /// Throws std::bad_alloc if the results don't fit into memory.
-  explicit SweepRun(const Sweep& sweep, const std::optional<results::Shard>& shard = {});
+  /// Keeps the results in `scratch`. Throws std::bad_alloc, storage::IoError if they don't fit there.
+  explicit SweepRun(const Sweep& sweep, const std::optional<results::Shard>& shard = {},
+                    std::shared_ptr<storage::Scratch> scratch = std::make_shared<storage::Scratch>());
 
   /// Restores results that `save` wrote in an earlier run of the same points. Returns false if they don't belong to
   /// this sweep.
@@ -83,20 +84,21 @@ class SweepRun {
 
   [[nodiscard]] double most_saved() const;
 
-  /// The results of all points; call it once.
+  /// The results of all points; call it once. The dataset takes its values from this run while it is written.
   [[nodiscard]] RunResult result();
 
  private:
   const Sweep& sweep_;
   std::optional<results::Shard> shard_;
   Share share_;
+  std::shared_ptr<storage::Scratch> scratch_;
   ResultStore store_;
-  std::vector<std::atomic<ChainState>> states_;  ///< [chain]
+  ChainStates states_;
   std::size_t restored_ = 0;
   RunResult result_;
 };
 
-/// Runs every point of a sweep.
+/// Runs every point of a sweep. The dataset holds its values.
 [[nodiscard]] RunResult run(const Sweep& sweep, const RunOptions& options);
 
 }  // namespace clatter::sweep

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <optional>
@@ -27,6 +28,29 @@ class Scatter {
  private:
   std::size_t count_;
   unsigned bits_;
+};
+
+/// The same in slabs: `slab` neighbours are done before those of another slab, so that their results lie together in
+/// memory. The slabs come in scattered order, and so do the numbers of each.
+class ScatterInSlabs {
+ public:
+  ScatterInSlabs(std::size_t count, std::size_t slab)
+      : count_(count),
+        slab_(std::clamp<std::size_t>(slab, 1, std::max<std::size_t>(count, 1))),
+        slabs_((count + slab_ - 1) / slab_),
+        within_(slab_) {}
+
+  [[nodiscard]] std::size_t turns() const { return slabs_.turns() * within_.turns(); }
+
+  [[nodiscard]] std::optional<std::size_t> number(std::size_t turn) const {
+    const auto slab = slabs_.number(turn / within_.turns()), within = within_.number(turn % within_.turns());
+    if (!slab || !within || *slab * slab_ + *within >= count_) return std::nullopt;
+    return *slab * slab_ + *within;
+  }
+
+ private:
+  std::size_t count_, slab_;
+  Scatter slabs_, within_;
 };
 
 }  // namespace clatter::sweep

@@ -12,6 +12,13 @@
 namespace clatter::sweep {
 namespace {
 
+/// Chains whose results are stored before those of other slabs: all, or of a great many points some that take a few ten
+/// megabytes.
+std::size_t slab_of(const Share& share) {
+  constexpr std::size_t many = 1UL << 22U, slab = 1UL << 18U;  // points
+  return share.points() <= many ? share.count() : slab / share.length() + 1;
+}
+
 WorkStats work_of(const point::WorkItem& item, const point::PointResult& result) {
   WorkStats work{.effects = item.effects,
                  .points = 1,
@@ -33,7 +40,7 @@ void add(std::vector<WorkStats>& sum, const WorkStats& part) {
 }  // namespace
 
 WorkerPool::WorkerPool(const Sweep& sweep, const Share& share, const RunOptions& options, int threads,
-                       ResultStore& store, std::vector<std::atomic<ChainState>>& states, std::size_t restored)
+                       ResultStore& store, ChainStates& states, std::size_t restored)
     : sweep_(sweep),
       share_(share),
       store_(store),
@@ -41,7 +48,7 @@ WorkerPool::WorkerPool(const Sweep& sweep, const Share& share, const RunOptions&
       progress_(options, static_cast<std::size_t>(threads), share.points(), restored),
       chunk_(sweep.follow ? 1
                           : std::clamp<std::size_t>(share_.count() / (64 * static_cast<std::size_t>(threads)), 1, 64)),
-      chunks_((share_.count() + chunk_ - 1) / chunk_),
+      chunks_((share_.count() + chunk_ - 1) / chunk_, (slab_of(share) + chunk_ - 1) / chunk_),
       most_branches_((share_.count() + static_cast<std::size_t>(threads) - 1) / static_cast<std::size_t>(threads)),
       arch_(options.arch),
       in_lanes_(runs_in_lanes(sweep, options.arch)),
@@ -55,7 +62,7 @@ WorkerPool::WorkerPool(const Sweep& sweep, const Share& share, const RunOptions&
   for (point::ThreadScratch& scratch : scratches_) scratch.fourier = fourier.for_another_thread();
   for (std::size_t point = 0; has_whole_pairs_ && restored > 0 && point < share_.count(); ++point)
     if (const auto original = mirror_images_.original_of(point))
-      if (states_[point] == ChainState::open && states_[*original] == ChainState::saved) bereft_.push_back(point);
+      if (!states_.is_finished(point) && states_.is_saved(*original)) bereft_.push_back(point);
 }
 
 void WorkerPool::run() {
@@ -160,7 +167,7 @@ std::optional<point::WorkItem> WorkerPool::store(const point::WorkItem& item, po
   store_.store(share_.local_index(item.chain, item.position), std::move(result), item.problem.units);
   progress_.add_point(thread);
   if (item.position + 1 < share_.length()) return item_of(item.chain, item.position + 1, end, item.problem.units);
-  states_[item.chain] = ChainState::finished;
+  states_.finish(item.chain);
   return std::nullopt;
 }
 
@@ -170,7 +177,7 @@ void WorkerPool::store_image_of(std::size_t point, const point::PointResult& res
   if (!image || is_restored(*image) || is_bereft(*image)) return;
   store_.store(*image, mirrored(result), units);
   progress_.add_point(thread);
-  states_[*image] = ChainState::finished;
+  states_.finish(*image);
 }
 
 void WorkerPool::run_chain(std::size_t chain, std::size_t thread) {

@@ -23,7 +23,7 @@ class WorkerPool {
  public:
   /// Leaves out the chains that are saved; `restored` is the number of their points.
   WorkerPool(const Sweep& sweep, const Share& share, const RunOptions& options, int threads, ResultStore& store,
-             std::vector<std::atomic<ChainState>>& states, std::size_t restored);
+             ChainStates& states, std::size_t restored);
 
   /// Runs every chain; results go by index, so their bits don't depend on which thread runs what.
   void run();
@@ -48,7 +48,7 @@ class WorkerPool {
   /// Chains that no thread has begun; empty if none is left or another thread has failed.
   std::optional<Chunk> next_chunk();
 
-  [[nodiscard]] bool is_restored(std::size_t chain) const { return states_[chain] == ChainState::saved; }
+  [[nodiscard]] bool is_restored(std::size_t chain) const { return states_.is_saved(chain); }
   /// Whether a chain needs no run: it is restored, or follows from its mirror image.
   [[nodiscard]] bool is_left_out(std::size_t chain) const {
     return is_restored(chain) || (has_whole_pairs_ && mirror_images_.original_of(chain) && !is_bereft(chain));
@@ -82,10 +82,10 @@ class WorkerPool {
   const Sweep& sweep_;
   const Share& share_;
   ResultStore& store_;
-  std::vector<std::atomic<ChainState>>& states_;  ///< [chain]
+  ChainStates& states_;
   SweepProgress progress_;
   std::size_t chunk_;          ///< chains that a thread takes at once
-  Scatter chunks_;             ///< the order of the chunks
+  ScatterInSlabs chunks_;      ///< the order of the chunks
   std::size_t most_branches_;  ///< that a thread has under way
   lanes::InstructionSet arch_;
   bool in_lanes_;

@@ -122,7 +122,7 @@ class Faults(StoppedRuns):
 
     @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
     def test_each_call_of_a_run_that_resumes_and_publishes_may_fail_or_be_the_last(self):
-        calls = ("open", "read", "write", "ftruncate", "fsync", "rename", "unlink")
+        calls = ("open", "read", "write", "ftruncate", "fsync", "linkat", "rename", "unlink")
         self.assertGreater(self.check_each_call(calls, ("kill", "EIO"), (), self.most()), 20)
 
     @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
@@ -297,11 +297,12 @@ class Faults(StoppedRuns):
         self.assertEqual(result.returncode, 74, result.stderr)
         self.assertRegex(
             result.stderr,
-            r"not enough memory: 9000000 points take \S+ GiB with an impact log of some \S+ GiB, ulimit -v leaves",
+            r"not enough memory: 9000000 points take \S+ MiB with an impact log of some \S+ MiB and map files of \S+ GiB, "
+            r"ulimit -v leaves \S+ MiB; .*--shard",
         )
         self.assertEqual(self.files(), ["a.toml"])
 
-    def test_a_sweep_that_no_machine_holds_is_refused_with_the_numbers(self):
+    def test_a_sweep_that_no_disk_holds_is_refused_with_the_numbers(self):
         words = (
             "--set",
             "sweep.nu=linspace(0.5,1.5,1000)",
@@ -313,7 +314,8 @@ class Faults(StoppedRuns):
         result = self.run_command(*words)
         self.assertEqual(result.returncode, 74, result.stderr)
         self.assertRegex(
-            result.stderr, r"not enough memory: 1000000 points take \S+ TiB .*this machine has \S+ [GT]iB; .*--shard"
+            result.stderr,
+            r"not enough disk space: the results take \S+ TiB beside '\S+a\.h5', \S+ [GT]iB are free there; free some",
         )
         self.assertEqual(self.files(), ["a.toml"])
 

@@ -120,8 +120,8 @@ void write_files(const fs::path& corpus) {
   };
   const auto write = [&](const std::string& name, results::Dataset what, int compression) {
     config.compression = compression;
-    const results::FileImage image = results::file_image(std::move(what), config);
-    seed(name, {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()});
+    const std::vector<std::byte> bytes = results::file_image(std::move(what), config);
+    seed(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   };
   write("small", figure(2, 2), 0);
   for (const auto& [name, bytes] : crafted_files(content_of(corpus / "info" / "small"))) seed(name, bytes);

@@ -27,8 +27,7 @@ results::FileSummary summary_of(std::size_t points, const std::string& shard = "
   if (!shard.empty()) dataset.attributes = {{"shard", shard}};
   results::FileHead head;
   head.text = "[scene]\nxs = -4.0\n[sweep]\nnu = [1, 2, 3]\n";
-  const results::FileImage image = results::file_image(std::move(dataset), head);
-  return read_summary(directory.write("a.h5", image.bytes));
+  return read_summary(directory.write("a.h5", results::file_image(std::move(dataset), head)));
 }
 
 TEST(OutputSummary, is_read_if_it_has_the_points_of_its_configuration) {

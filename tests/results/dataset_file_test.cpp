@@ -56,12 +56,6 @@ std::vector<double> ramp(std::size_t size) {
 const std::vector<std::uint8_t> flags{0, 1, 2, 16, 17, 18};
 const std::string meanings = "periodic aperiodic transient event_budget not_finite unresolved";
 
-/// A copy of the image, to be changed and compared; file_image takes the dataset, tests keep theirs.
-std::vector<std::byte> bytes_of(Dataset dataset, const FileHead& given) {
-  const FileImage image = file_image(std::move(dataset), given);
-  return {image.bytes.begin(), image.bytes.end()};
-}
-
 /// A little-endian number of the file.
 std::size_t number_at(const std::vector<std::byte>& bytes, std::size_t place, std::size_t size) {
   std::size_t number = 0;
@@ -81,7 +75,7 @@ Dataset sweep(std::size_t points, std::size_t samples) {
 }
 
 TEST_F(DatasetFile, summary_names_all_that_was_written) {
-  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), head())));
+  const FileSummary summary = read_summary(write("sweep.h5", file_image(sweep(5, 7), head())));
   ASSERT_EQ(summary.variables.size(), 4U);  // `sample` is a dimension, no variable
   EXPECT_EQ(summary.variables[0].name, "nu");
   EXPECT_EQ(summary.variables[1].type, "uint8");
@@ -95,7 +89,7 @@ TEST_F(DatasetFile, summary_names_all_that_was_written) {
 }
 
 TEST_F(DatasetFile, root_attributes_come_in_the_order_of_the_contract) {
-  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), head())));
+  const FileSummary summary = read_summary(write("sweep.h5", file_image(sweep(5, 7), head())));
   std::string names;
   for (const auto& [name, text] : summary.attributes) names += name + " ";
   EXPECT_EQ(names, "Conventions title source clatter_schema clatter_version git_commit config config_sha256 compiler ");
@@ -107,7 +101,7 @@ TEST_F(DatasetFile, root_attributes_come_in_the_order_of_the_contract) {
 }
 
 TEST_F(DatasetFile, points_are_counted_by_status) {
-  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), head())));
+  const FileSummary summary = read_summary(write("sweep.h5", file_image(sweep(5, 7), head())));
   ASSERT_EQ(summary.status_counts.size(), flags.size());
   EXPECT_EQ(summary.status_counts[0], (std::pair<std::string, std::size_t>{"periodic", 4}));
   EXPECT_EQ(summary.status_counts[3], (std::pair<std::string, std::size_t>{"event_budget", 1}));
@@ -115,30 +109,21 @@ TEST_F(DatasetFile, points_are_counted_by_status) {
 
 TEST_F(DatasetFile, the_same_figure_gives_the_same_bytes) {
   const Dataset dataset = sweep(501, 64);
-  EXPECT_EQ(bytes_of(dataset, head()), bytes_of(dataset, head()));
+  EXPECT_EQ(file_image(dataset, head()), file_image(dataset, head()));
 }
 
 TEST_F(DatasetFile, the_file_is_closed_and_ends_where_it_says) {
   for (const int compression : {0, 4}) {
-    const std::vector<std::byte> image = bytes_of(sweep(501, 1000), head(compression));
+    const std::vector<std::byte> image = file_image(sweep(501, 1000), head(compression));
     ASSERT_EQ(number_at(image, 8, 1), 0U);             // the version of the superblock that the next lines assume
     EXPECT_EQ(number_at(image, 20, 4), 0U);            // not open for writing
     EXPECT_EQ(number_at(image, 40, 8), image.size());  // end of file
   }
 }
 
-TEST_F(DatasetFile, an_image_outlives_its_figure_and_other_images) {
-  std::optional<FileImage> first = file_image(sweep(501, 64), head());
-  const FileImage second = file_image(sweep(501, 65), head());
-  const std::vector<std::byte> copy{first->bytes.begin(), first->bytes.end()};
-  EXPECT_EQ(copy, bytes_of(sweep(501, 64), head()));
-  first.reset();
-  EXPECT_EQ((std::vector<std::byte>{second.bytes.begin(), second.bytes.end()}), bytes_of(sweep(501, 65), head()));
-}
-
 TEST_F(DatasetFile, a_sweep_without_axes_has_scalars) {
   const Dataset dataset{{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}};
-  const FileSummary summary = read_summary(write("scalar.h5", bytes_of(dataset, head())));
+  const FileSummary summary = read_summary(write("scalar.h5", file_image(dataset, head())));
   ASSERT_EQ(summary.variables.size(), 1U);
   EXPECT_TRUE(summary.variables[0].dimensions.empty());
   EXPECT_TRUE(summary.status_counts.empty());
@@ -146,7 +131,7 @@ TEST_F(DatasetFile, a_sweep_without_axes_has_scalars) {
 
 TEST_F(DatasetFile, an_impact_log_may_be_empty) {
   const Dataset dataset{{{"impact", 0}}, {{"impact_tau", {"impact"}, std::vector<double>{}, "time of impact", "1"}}};
-  const FileSummary summary = read_summary(write("log.h5", bytes_of(dataset, head())));
+  const FileSummary summary = read_summary(write("log.h5", file_image(dataset, head())));
   ASSERT_EQ(summary.variables.size(), 1U);
   EXPECT_EQ(summary.variables[0].dimensions.front().name, "impact");
   EXPECT_EQ(summary.variables[0].dimensions.front().length, 0U);
@@ -155,7 +140,7 @@ TEST_F(DatasetFile, an_impact_log_may_be_empty) {
 TEST_F(DatasetFile, a_configuration_may_be_long) {
   FileHead given = head();
   given.text = std::string(300'000, '#');  // an object header holds at most 64 KiB
-  const FileSummary summary = read_summary(write("long.h5", bytes_of(sweep(5, 7), given)));
+  const FileSummary summary = read_summary(write("long.h5", file_image(sweep(5, 7), given)));
   EXPECT_TRUE(summary.attributes[6].second == given.text);  // not EXPECT_EQ, which would print both
 }
 
@@ -173,27 +158,27 @@ constexpr std::size_t longest = 255;  // bytes of a text
 
 TEST_F(DatasetFile, texts_come_back_as_they_were) {
   const Dataset dataset = words(longest);
-  const std::string path = write("words.h5", bytes_of(dataset, head()));
+  const std::string path = write("words.h5", file_image(dataset, head()));
   EXPECT_EQ(read_variables(path, {"impact_word"}).variables[0].values, dataset.variables[0].values);
   EXPECT_EQ(read_summary(path).variables[0].type, "string");
-  EXPECT_EQ(bytes_of(dataset, head()), bytes_of(dataset, head()));
+  EXPECT_EQ(file_image(dataset, head()), file_image(dataset, head()));
 }
 
 TEST_F(DatasetFile, texts_that_are_longer_than_any_of_clatter_are_refused) {
-  const std::string path = write("long.h5", bytes_of(words(longest + 1), head()));
+  const std::string path = write("long.h5", file_image(words(longest + 1), head()));
   EXPECT_THROW(static_cast<void>(read_variables(path, {"impact_word"})), storage::IoError);
 }
 
 TEST_F(DatasetFile, large_arrays_are_deflated_and_small_ones_are_not) {
-  const std::size_t plain = bytes_of(sweep(501, 1000), head(0)).size();
+  const std::size_t plain = file_image(sweep(501, 1000), head(0)).size();
   EXPECT_GT(plain, 501U * 1000U * sizeof(double));
-  EXPECT_LT(bytes_of(sweep(501, 1000), head(4)).size(), plain);
-  EXPECT_EQ(bytes_of(sweep(501, 2), head(4)), bytes_of(sweep(501, 2), head(0)));
+  EXPECT_LT(file_image(sweep(501, 1000), head(4)).size(), plain);
+  EXPECT_EQ(file_image(sweep(501, 2), head(4)), file_image(sweep(501, 2), head(0)));
 }
 
 TEST_F(DatasetFile, values_lie_in_the_file_as_little_endian_doubles) {
   const Dataset dataset = sweep(501, 2);  // too small to be deflated; copies_test.py reads deflated ones
-  const std::vector<std::byte> image = bytes_of(dataset, head());
+  const std::vector<std::byte> image = file_image(dataset, head());
   const auto bytes = std::as_bytes(std::span{std::get<std::vector<double>>(dataset.variables.back().values)});
   EXPECT_NE(std::search(image.begin(), image.end(), bytes.begin(), bytes.end()), image.end());
 }
@@ -201,10 +186,10 @@ TEST_F(DatasetFile, values_lie_in_the_file_as_little_endian_doubles) {
 TEST_F(DatasetFile, a_figure_that_contradicts_itself_is_a_bug) {
   Dataset dataset = sweep(5, 7);
   dataset.variables[3].values = ramp(34);  // one short
-  EXPECT_THROW(static_cast<void>(bytes_of(dataset, head())), std::logic_error);
+  EXPECT_THROW(static_cast<void>(file_image(dataset, head())), std::logic_error);
   dataset = sweep(5, 7);
   dataset.variables[3].dimensions = {"nu", "impact"};
-  EXPECT_THROW(static_cast<void>(bytes_of(dataset, head())), std::logic_error);
+  EXPECT_THROW(static_cast<void>(file_image(dataset, head())), std::logic_error);
 }
 
 TEST_F(DatasetFile, foreign_files_are_refused_in_words) {
@@ -214,7 +199,7 @@ TEST_F(DatasetFile, foreign_files_are_refused_in_words) {
   const std::string text = write("text.h5", std::vector<std::byte>(4096, std::byte{'a'}));
   EXPECT_EQ(refusal(text), "'" + text + "': is not an HDF5 file; name an output of clatter");
   EXPECT_NE(refusal(write("empty.h5", {})).find("is not an HDF5 file"), std::string::npos);
-  std::vector<std::byte> foreign = bytes_of(sweep(5, 7), head());
+  std::vector<std::byte> foreign = file_image(sweep(5, 7), head());
   const auto schema = std::as_bytes(std::span{std::string_view{"clatter/1"}});
   const auto found = std::search(foreign.begin(), foreign.end(), schema.begin(), schema.end());
   ASSERT_NE(found, foreign.end());
@@ -223,7 +208,7 @@ TEST_F(DatasetFile, foreign_files_are_refused_in_words) {
 }
 
 TEST_F(DatasetFile, a_truncated_file_is_refused_at_every_length) {
-  const std::vector<std::byte> whole = bytes_of(sweep(5, 7), head());
+  const std::vector<std::byte> whole = file_image(sweep(5, 7), head());
   for (std::size_t size = 0; size < whole.size(); size += 97) {
     const std::string file = write("cut.h5", {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
     EXPECT_NE(refusal(file), "") << size << " of " << whole.size() << " bytes";
@@ -231,7 +216,7 @@ TEST_F(DatasetFile, a_truncated_file_is_refused_at_every_length) {
 }
 
 TEST_F(DatasetFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_holds_none_up) {
-  const std::vector<std::byte> whole = bytes_of(sweep(5, 7), head());
+  const std::vector<std::byte> whole = file_image(sweep(5, 7), head());
   for (std::size_t place = 0; place + 64 < whole.size(); place += 64) {
     std::vector<std::byte> damaged = whole;
     std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(place), 64, std::byte{0});
@@ -241,7 +226,7 @@ TEST_F(DatasetFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_ho
 
 // HDF5 1.10 divides by the length of a record, here 0; the checksum is right, as in a file damaged on purpose.
 TEST_F(DatasetFile, a_file_that_makes_the_library_crash_is_refused) {
-  std::vector<std::byte> damaged = bytes_of(sweep(5, 7), head());
+  std::vector<std::byte> damaged = file_image(sweep(5, 7), head());
   const auto signature = std::as_bytes(std::span{std::string_view{"BTHD"}});
   const auto found = std::search(damaged.begin(), damaged.end(), signature.begin(), signature.end());
   ASSERT_NE(found, damaged.end());
@@ -256,6 +241,72 @@ TEST_F(DatasetFile, a_file_that_makes_the_library_crash_is_refused) {
   std::memcpy(&tree[checksum], &stored, sizeof stored);
   const std::string why = refusal(write("damaged.h5", damaged));
   EXPECT_NE(why.find("it makes the HDF5 library"), std::string::npos) << why;
+}
+
+/// The same dataset, whose values are made while it is written.
+Dataset made_meanwhile(const Dataset& dataset) {
+  Dataset made = dataset;
+  for (Variable& variable : made.variables)
+    std::visit(
+        [&variable]<class T>(std::vector<T>& held) {
+          variable.next = [values = std::move(held), at = std::ptrdiff_t{0}](std::size_t count) mutable {
+            const auto begin = values.begin() + at;
+            at += static_cast<std::ptrdiff_t>(count);
+            return std::vector<T>(begin, values.begin() + at);
+          };
+          held.clear();
+        },
+        variable.values);
+  return made;
+}
+
+/// Variables of all types over so many points: with 20 of them small, with 40,000 larger than a block.
+Dataset every_type(std::size_t points) {
+  std::vector<std::uint8_t> bytes(points);
+  std::vector<std::int8_t> signs(points);
+  std::vector<std::int32_t> numbers(points);
+  std::vector<std::int64_t> counts(points);
+  std::vector<std::string> words(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    bytes[i] = static_cast<std::uint8_t>(i % 7), signs[i] = static_cast<std::int8_t>(i % 3);
+    numbers[i] = static_cast<std::int32_t>(i * i), counts[i] = static_cast<std::int64_t>(i);
+    words[i] = std::string(i % 60, 'L') + std::to_string(i);
+  }
+  return {{{"x0", points / 20}, {"v0", 20}, {"sample", 9}},
+          {{"x0", {"x0"}, ramp(points / 20), "start", "1"},
+           {"status", {"x0", "v0"}, bytes, "outcome", "1"},
+           {"word", {"x0", "v0"}, words, "impacts", "1"},
+           {"sign", {"x0", "v0"}, signs, "stop", "1"},
+           {"x", {"x0", "v0", "sample"}, ramp(9 * points), "displacement", "1"},
+           {"number", {"x0", "v0"}, numbers, "motion", "1"},
+           {"count", {"x0", "v0"}, counts, "impacts", "1"}}};
+}
+
+TEST_F(DatasetFile, values_that_are_made_meanwhile_give_the_same_bytes) {
+  for (const std::size_t points : {0UL, 20UL, 40'000UL})
+    for (const int level : {0, 1}) {
+      const Dataset dataset = every_type(points);
+      EXPECT_TRUE(file_image(made_meanwhile(dataset), head(level)) == file_image(dataset, head(level)))
+          << points << ' ' << level;
+    }
+}
+
+TEST_F(DatasetFile, of_more_texts_than_are_held_in_pages_is_whole) {
+  constexpr std::size_t count = 300'000;  // of some 150 bytes
+  std::vector<std::string> words(count);
+  for (std::size_t i = 0; i < count; ++i) words[i] = std::string(80 + i % 70, 'U') + std::to_string(i);
+  const Dataset dataset{{{"x0", count}}, {{"word", {"x0"}, words, "impacts", "1"}}};
+  const std::string path = write("texts.h5", file_image(made_meanwhile(dataset), head()));
+  EXPECT_TRUE(*values_of<std::string>(read_variables(path, {"word"}), "word") == words);
+}
+
+TEST_F(DatasetFile, an_error_while_values_are_made_comes_out_of_it) {
+  Dataset dataset = made_meanwhile(every_type(40'000));
+  dataset.variables[4].next = [](std::size_t) -> ValueArray { throw std::range_error("no more"); };
+  EXPECT_THROW(static_cast<void>(file_image(dataset, head())), std::range_error);
+  dataset = made_meanwhile(every_type(40'000));
+  dataset.variables[4].next = [](std::size_t count) { return std::vector<double>(count - 1); };
+  EXPECT_THROW(static_cast<void>(file_image(dataset, head())), std::logic_error);
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ std::string output(const Origin& origin) {
   results::Dataset dataset{
       {}, {{origin.command == "accuracy" ? "ns_per_period" : "x_min", {}, std::vector<double>{1.0}, "", "1"}}};
   if (!origin.shard.empty()) dataset.attributes = {{"shard", origin.shard}};
-  const FileImage image = file_image(std::move(dataset), head);
-  return {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()};
+  const std::vector<std::byte> bytes = file_image(std::move(dataset), head);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 const Origin run{.title = "größter Ausschlag"}, accuracy{.command = "accuracy", .title = run.title},
@@ -43,7 +43,7 @@ const Origin run{.title = "größter Ausschlag"}, accuracy{.command = "accuracy"
 
 void publish_new(const OutputPlace& place) {
   const std::string bytes = "new";
-  place.write_atomically(std::as_bytes(std::span(bytes)));
+  place.write_atomically([&](storage::FileWriter& file) { file.write(0, std::as_bytes(std::span(bytes))); });
 }
 
 TEST_F(OutputPlaceTest, an_output_tells_its_origin) {

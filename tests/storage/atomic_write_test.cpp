@@ -36,7 +36,7 @@ class AtomicWrite : public testing::Test {
   /// The error of writing a text, or nothing if that succeeds.
   [[nodiscard]] static std::string refusal(const std::string& file, const std::string& text = "new") {
     try {
-      write_atomically(file, std::as_bytes(std::span{text}));
+      write_atomically(file, text);
       return "";
     } catch (const IoError& error) {
       return error.what();
@@ -186,8 +186,8 @@ TEST_F(AtomicWrite, of_two_at_once_neither_takes_the_file_of_the_other) {
   const std::string same(220, 'x');  // only the beginning of a long name is in that of the temporary file
   for (const std::string& other : {path("out.h5"), path(same + "2")}) {
     const std::string first = "first", second = "second", target = other == path("out.h5") ? other : path(same + "1");
-    const auto meanwhile = [&] { write_atomically(other, std::as_bytes(std::span{second})); };
-    write_atomically(target, std::as_bytes(std::span{first}), {.before_rename = meanwhile});
+    const auto meanwhile = [&] { write_atomically(other, second); };
+    write_atomically(target, first, {.before_rename = meanwhile});
     EXPECT_EQ(content(fs::path(target).filename()), "first");
   }
   EXPECT_EQ(content(same + "2"), "second");
@@ -197,8 +197,7 @@ TEST_F(AtomicWrite, of_two_at_once_neither_takes_the_file_of_the_other) {
 TEST_F(AtomicWrite, asks_for_room_only_if_there_is_too_little) {
   std::uint64_t asked = 0;
   const std::string text = "new";
-  write_atomically(path("out.h5"), std::as_bytes(std::span{text}),
-                   {.make_room = [&](std::uint64_t bytes) { asked = bytes; }});
+  write_atomically(path("out.h5"), text, {.make_room = [&](std::uint64_t bytes) { asked = bytes; }});
   EXPECT_EQ(asked, 0U);
 }
 

@@ -106,6 +106,14 @@ ssize_t write(int file, const void* bytes, size_t count) {
   return fails();
 }
 
+/// A write at a place is a write.
+ssize_t pwrite(int file, const void* bytes, size_t count, off_t at) {
+  static const auto call = next<ssize_t (*)(int, const void*, size_t, off_t)>("pwrite");
+  if (!is_regular(file) || !goes_wrong("write")) return call(file, bytes, count, at);
+  if (fault().effect == "short") return call(file, bytes, (count + 1) / 2, at);
+  return fails();
+}
+
 ssize_t read(int file, void* bytes, size_t count) {
   static const auto call = next<ssize_t (*)(int, void*, size_t)>("read");
   if (!is_regular(file) || !goes_wrong("read")) return call(file, bytes, count);
@@ -117,7 +125,8 @@ int open(const char* path, int flags, ...) {
   static const auto call = next<int (*)(const char*, int, ...)>("open");
   va_list rest;
   va_start(rest, flags);
-  const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
+  const bool creates = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
+  const mode_t mode = creates ? va_arg(rest, mode_t) : 0;
   va_end(rest);
   if ((flags & (O_CREAT | O_DIRECTORY)) != 0 && goes_wrong("open")) return fails();
   return call(path, flags, mode);
@@ -136,6 +145,11 @@ int fsync(int file) {
 int ftruncate(int file, off_t length) noexcept {
   static const auto call = next<int (*)(int, off_t)>("ftruncate");
   return goes_wrong("ftruncate") ? fails() : call(file, length);
+}
+
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+  static const auto call = next<int (*)(int, const char*, int, const char*, int)>("linkat");
+  return goes_wrong("linkat") ? fails() : call(from_folder, from, to_folder, to, flags);
 }
 
 int rename(const char* from, const char* to) noexcept {

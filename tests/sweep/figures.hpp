@@ -23,4 +23,11 @@ inline Sweep sweep_of(const point::Problem& scene, std::vector<Axis> axes) {
   return sweep;
 }
 
+/// The dataset of a run that is done, with its values.
+inline results::Dataset dataset_of(SweepRun& run) {
+  results::Dataset dataset = run.result().dataset;
+  collect(dataset);
+  return dataset;
+}
+
 }  // namespace clatter::sweep

@@ -102,7 +102,7 @@ TEST(MirrorImages, of_restored_points_are_run) {
     ASSERT_TRUE(second.restore(std::span(pieces).first(pieces.size() / size(sweep) * (size(sweep) / share))));
     EXPECT_EQ(second.restored_points(), size(sweep) / share);
     second.run({.threads = 2});
-    expect_same(whole, second.result().dataset);
+    expect_same(whole, dataset_of(second));
   }
 }
 

@@ -175,7 +175,7 @@ TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
   sweep.follow = 0;
   const RunResult result = run(sweep, {});
   EXPECT_EQ(statuses(result.dataset), (std::vector<std::uint8_t>{16, 0}));
-  EXPECT_EQ(result.failed_points, 1u);
+  EXPECT_EQ(result.statuses.failed(), 1u);
   for (const char* name : {"x_min", "x_max", "v_min", "v_max", "period", "period_ratio"}) {
     EXPECT_TRUE(std::isnan(values(result.dataset, name)[0])) << name;
     EXPECT_FALSE(std::isnan(values(result.dataset, name)[1])) << name;

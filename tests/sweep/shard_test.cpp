@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <list>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -9,8 +12,9 @@
 #include <vector>
 
 #include "plan/memory_need.hpp"
+#include "support/temporary_directory.hpp"
 #include "sweep/figures.hpp"
-#include "sweep/result_store.hpp"
+#include "sweep/joined.hpp"
 #include "sweep/run.hpp"
 
 namespace clatter::sweep {
@@ -50,7 +54,44 @@ Sweep any_sweep(const Order& order = {}) {
 results::Dataset shard_figure(const Sweep& sweep, const results::Shard& shard, const RunOptions& options = {}) {
   SweepRun run(sweep, shard);
   run.run(options);
-  return run.result().dataset;
+  return dataset_of(run);
+}
+
+/// A shard's dataset as the part of a sweep.
+Part part_of(const results::Dataset& dataset, const results::Shard& shard) {
+  const auto find = [&dataset](const std::string& name) {
+    return std::ranges::find(dataset.variables, name, &results::Variable::name);
+  };
+  const auto width_of = [&dataset](const results::Variable& variable) {
+    std::size_t width = 1;
+    for (const std::string& name : std::span(variable.dimensions).subspan(1))
+      width *= std::ranges::find(dataset.dimensions, name, &results::NamedLength::name)->length;
+    return width;
+  };
+  const auto rows = [=, &dataset](const std::string& name) -> std::optional<std::size_t> {
+    const auto variable = find(name);
+    if (variable == dataset.variables.end()) return std::nullopt;
+    const std::size_t size = std::visit([](const auto& held) { return held.size(); }, variable->values);
+    return (size + width_of(*variable) - 1) / width_of(*variable);
+  };
+  const auto values = [=](const std::string& name, std::size_t first, std::size_t count) {
+    const results::Variable& variable = *find(name);
+    return std::visit(
+        [&](const auto& held) -> results::ValueArray {
+          const std::size_t width = width_of(variable);
+          const auto begin = held.begin() + static_cast<std::ptrdiff_t>(first * width);
+          return std::vector(begin, begin + static_cast<std::ptrdiff_t>(count * width));
+        },
+        variable.values);
+  };
+  return {shard, rows, values};
+}
+
+/// The dataset of joined shards, with its values.
+results::Dataset dataset_of(const Sweep& sweep, const std::vector<Part>& parts) {
+  results::Dataset dataset = joined(sweep, parts, 2).dataset;
+  collect(dataset);
+  return dataset;
 }
 
 /// The pieces that a run hands over to be kept.
@@ -89,6 +130,11 @@ TEST(Shard, has_each_point_once_in_ascending_order_and_whole_chains) {
             ++owners[share.point(n, i)];
           }
         EXPECT_TRUE(std::ranges::is_sorted(points, std::ranges::less_equal{})) << number << '/' << of;
+        for (std::size_t point = 0, before = 0; point <= size(sweep); ++point) {
+          ASSERT_EQ(share.points_before(point), before);
+          if (before == points.size() || points[before] != point) continue;
+          ASSERT_EQ(share.point_at(before++), point);
+        }
       }
       EXPECT_TRUE(std::ranges::all_of(owners, [](int owner) { return owner == 1; })) << of;
     }
@@ -100,32 +146,55 @@ TEST(Shard, figures_make_that_of_the_whole_sweep_bit_for_bit) {
     const Sweep sweep = any_sweep(order);
     const results::Dataset whole = run(sweep, {.threads = 1}).dataset;
     for (const std::size_t of : {1U, 3U, 40U}) {
-      ResultStore columns(sweep);
+      std::list<results::Dataset> figures;
+      std::vector<Part> parts;
       for (std::size_t number = of; number-- > 0;) {
-        results::Dataset part = shard_figure(sweep, {number, of}, {.threads = static_cast<int>(1 + number % 3)});
-        columns.take(part, {number, of});
+        const results::Shard shard{number, of};
+        figures.push_back(shard_figure(sweep, shard, {.threads = static_cast<int>(1 + number % 3)}));
+        parts.push_back(part_of(figures.back(), shard));
       }
-      columns.number_motions(2);
-      expect_same(whole, columns.dataset());
+      expect_same(whole, dataset_of(sweep, parts));
+    }
+  }
+}
+
+TEST(Shard, results_in_files_are_those_in_memory) {
+  const support::TemporaryDirectory directory;
+  for (const Order& order : every_order) {
+    const Sweep sweep = any_sweep(order);
+    for (const std::optional<results::Shard> shard : {std::optional<results::Shard>(), {results::Shard{1, 3}}}) {
+      SweepRun in_memory(sweep, shard),
+          in_files(sweep, shard, std::make_shared<storage::Scratch>(directory.path("out.h5"), 0));
+      in_memory.run({.threads = 1}), in_files.run({.threads = 2});
+      EXPECT_EQ(saved(in_memory), saved(in_files));
+      expect_same(dataset_of(in_memory), dataset_of(in_files));
     }
   }
 }
 
 TEST(Shard, figure_of_another_one_is_refused) {
-  const Sweep sweep = any_sweep();
-  const auto refusal = [&](results::Dataset figure, const results::Shard& shard = {0, 2}) -> std::string {
+  Sweep sweep = any_sweep();
+  for (Dimension& dimension : sweep.dimensions) dimension[0].values.resize(2);
+  const results::Dataset figure = shard_figure(sweep, {0, 2}), rest = shard_figure(sweep, {1, 2});
+  const auto refusal = [&](const results::Dataset& first, const results::Shard& shard = {0, 2}) -> std::string {
     try {
-      ResultStore(sweep).take(figure, shard);
+      static_cast<void>(dataset_of(sweep, {part_of(first, shard), part_of(rest, {1, 2})}));
       return "";
-    } catch (const std::runtime_error& error) {
+    } catch (const PartError& error) {
+      EXPECT_EQ(error.part(), 0U);
       return error.what();
     }
   };
-  const results::Dataset figure = shard_figure(sweep, {0, 2});
   EXPECT_EQ(refusal(figure), "");
   EXPECT_NE(refusal(figure, {1, 2}).find("points"), std::string::npos);
   EXPECT_NE(refusal(figure, {0, 3}).find("points"), std::string::npos);
   EXPECT_NE(refusal(run(sweep, {}).dataset).find("'point'"), std::string::npos);
+  results::Dataset shorter = figure;  // one impact less than its points have
+  for (results::Variable& variable : shorter.variables)
+    if (variable.dimensions == std::vector<std::string>{"impact"})
+      std::visit([](auto& values) { values.pop_back(); }, variable.values);
+  std::ranges::find(shorter.dimensions, "impact", &results::NamedLength::name)->length -= 1;
+  EXPECT_NE(refusal(shorter).find("'impact_count'"), std::string::npos);
   for (const results::Variable& variable : figure.variables) {
     if (variable.dimensions == std::vector{variable.name} && variable.name != "point") continue;  // not read
     if (variable.name == "attractor" || variable.name.starts_with("motion_")) continue;           // made anew
@@ -134,13 +203,14 @@ TEST(Shard, figure_of_another_one_is_refused) {
     without.variables.erase(without.variables.begin() + at);
     std::visit([](auto& values) { values.push_back({}); }, longer.variables[static_cast<std::size_t>(at)].values);
     results::ValueArray& values = other.variables[static_cast<std::size_t>(at)].values;
+    const std::size_t size = std::visit([](const auto& held) { return held.size(); }, values);
     if (std::holds_alternative<std::vector<double>>(values))
-      values = std::vector<std::int64_t>();
+      values = std::vector<std::int64_t>(size);
     else
-      values = std::vector<double>();
+      values = std::vector<double>(size);
     EXPECT_NE(refusal(without).find(variable.name), std::string::npos) << variable.name;
     EXPECT_NE(refusal(longer), "") << variable.name;
-    EXPECT_NE(refusal(other).find(variable.name), std::string::npos) << variable.name;
+    EXPECT_NE(refusal(other).find(variable.name), std::string::npos) << variable.name << ": " << refusal(other);
   }
 }
 
@@ -186,7 +256,7 @@ TEST(SavedRun, goes_on_from_whatever_was_saved_to_the_same_bits) {
     SweepRun half(sweep);
     ASSERT_TRUE(half.restore(all));
     half.run({});
-    expect_same(half.result().dataset, whole);
+    expect_same(dataset_of(half), whole);
   }
 }
 
@@ -223,7 +293,7 @@ TEST(SavedRun, may_be_saved_while_it_is_at_work) {
       SweepRun again(sweep);
       for (const Bytes& piece : pieces) ASSERT_TRUE(again.restore(piece));
       again.run({.threads = 2});
-      expect_same(again.result().dataset, whole);
+      expect_same(dataset_of(again), whole);
     }
   }
 }
