@@ -2,8 +2,6 @@
 
 #include <fftw3.h>
 
-#include <algorithm>
-#include <cassert>
 #include <new>
 
 namespace clatter::observables {
@@ -63,17 +61,16 @@ std::unique_ptr<FourierTransform::Workspace, void (*)(FourierTransform::Workspac
   return {new Workspace(plan_->size), [](Workspace* workspace) { delete workspace; }};
 }
 
-auto FourierTransform::transform(const Rows<double>& samples, Workspace& workspace) const
-    -> Rows<std::complex<double>> {
-  Rows<std::complex<double>> sums;
-  const std::size_t size = plan_->size;
-  for (std::size_t row = 0; row < batch; ++row) {
-    assert(samples[row].size() == size);
-    std::ranges::copy(samples[row], workspace.samples + row * sample_stride(size));
-    sums[row] = {workspace.sums + row * sums_of(size), sums_of(size)};
-  }
+std::size_t FourierTransform::size() const { return plan_->size; }
+
+auto FourierTransform::samples(Workspace& workspace) const -> Rows<double> {
+  return {std::span(workspace.samples, size()), std::span(workspace.samples + sample_stride(size()), size())};
+}
+
+auto FourierTransform::transform(Workspace& workspace) const -> Rows<const std::complex<double>> {
   fftw_execute_dft_r2c(plan_->plan, workspace.samples, workspace.output());
-  return sums;
+  const std::size_t each = sums_of(size());
+  return {std::span(workspace.sums, each), std::span(workspace.sums + each, each)};
 }
 
 }  // namespace clatter::observables

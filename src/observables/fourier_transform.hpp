@@ -14,7 +14,7 @@ class FourierTransform {
  public:
   static constexpr std::size_t batch = 2;  ///< displacement and velocity of a point; more at once are no faster
   template <class T>
-  using Rows = std::array<std::span<const T>, batch>;
+  using Rows = std::array<std::span<T>, batch>;
 
   explicit FourierTransform(std::size_t size);  ///< Throws std::bad_alloc.
   ~FourierTransform();
@@ -25,9 +25,12 @@ class FourierTransform {
   class Workspace;
   [[nodiscard]] std::unique_ptr<Workspace, void (*)(Workspace*)> workspace() const;
 
+  [[nodiscard]] std::size_t size() const;  ///< N
+  /// The samples that are transformed, shape [row][N], to be written.
+  [[nodiscard]] Rows<double> samples(Workspace& workspace) const;
   /// Sums S_j = sum_i samples[i] exp(-2 pi i j i/N) of each row, shape [row][N/2 + 1], valid until the workspace is
   /// used again; S_j / N are the Fourier coefficients.
-  [[nodiscard]] Rows<std::complex<double>> transform(const Rows<double>& samples, Workspace& workspace) const;
+  [[nodiscard]] Rows<const std::complex<double>> transform(Workspace& workspace) const;
 
  private:
   struct Plan;

@@ -14,16 +14,15 @@ namespace {
 
 constexpr double nan = no_value;
 
-/// Harmonics k of the base frequency from the sums of the transform of `count` samples of an observed time in which it
-/// turns `turns` times. NaN from half the sampling rate on; all, the constant part too, if the base frequency itself is
-/// beyond it.
-Spectrum sampled_spectrum(std::span<const std::complex<double>> sums, std::size_t count, double turns,
-                          std::size_t highest) {
-  const auto samples = static_cast<double>(count);
+/// The harmonics of a base frequency that turns `turns` times in an observed time of `count` samples; `harmonic(k, i)`
+/// is the k-th, the i-th of the transform. NaN from half the sampling rate on; all, the constant part too, if the base
+/// frequency itself is beyond it.
+template <class Harmonic>
+Spectrum sampled_spectrum(std::size_t count, double turns, std::size_t highest, const Harmonic& harmonic) {
   std::vector<std::complex<double>> harmonics(highest + 1, {nan, nan});
   for (std::size_t k = 0; k <= highest; ++k) {
     const double index = std::round(turns * static_cast<double>(k)), needed = std::max(index, turns);
-    if (2 * needed < samples) harmonics[k] = sums[static_cast<std::size_t>(index)] / samples;
+    if (2 * needed < static_cast<double>(count)) harmonics[k] = harmonic(k, static_cast<std::size_t>(index));
   }
   return Spectrum::of(harmonics);
 }
@@ -78,17 +77,31 @@ bool Harmonics::in_lanes(const Settings& settings, const ObservedSpan& span) {
 }
 
 Harmonics::Values Harmonics::Observer::finish(const ObservedSpan& span, double x, double v) {
-  if (exact_) {
-    exact_->finish(x, span.total);
-    if (span.frame) exact_->add(*span.frame, span.total);
-    return {Spectrum::of(exact_->displacement()), Spectrum::of(exact_->velocity()), span.base_frequency};
-  }
+  return exact_ ? finish_exact(span, x) : finish_samples(span, x, v);
+}
+
+Harmonics::Values Harmonics::Observer::finish_exact(const ObservedSpan& span, double x) {
+  exact_->finish(x, span.total);
+  if (span.frame) exact_->add(*span.frame, span.total);
+  const auto spectrum = [&](const std::vector<std::complex<double>>& harmonics) {
+    if (!samples_) return Spectrum::of(harmonics);
+    return sampled_spectrum(samples_->count(), span.base_turns, highest_,
+                            [&](std::size_t k, std::size_t) { return harmonics[k]; });
+  };
+  return {spectrum(exact_->displacement()), spectrum(exact_->velocity()), span.base_frequency};
+}
+
+Harmonics::Values Harmonics::Observer::finish_samples(const ObservedSpan& span, double x, double v) {
   samples_->finish(x, v, span.total, span.periodic);
   if (span.frame) samples_->add(*span.frame);
-  const std::vector<double>&displacement = samples_->displacement(), &velocity = samples_->velocity();
-  const auto sums = span.fourier->transform->transform({displacement, velocity}, *span.fourier->workspace);
-  return {sampled_spectrum(sums[0], displacement.size(), span.base_turns, highest_),
-          sampled_spectrum(sums[1], velocity.size(), span.base_turns, highest_), span.base_frequency};
+  const auto& [transform, workspace] = *span.fourier;
+  const auto [of_x, of_v] = transform->transform(*workspace);
+  const auto spectrum = [&](std::span<const std::complex<double>> sums) {
+    const std::size_t count = samples_->count();
+    return sampled_spectrum(count, span.base_turns, highest_,
+                            [&](std::size_t, std::size_t i) { return sums[i] / static_cast<double>(count); });
+  };
+  return {spectrum(of_x), spectrum(of_v), span.base_frequency};
 }
 
 }  // namespace clatter::observables

@@ -68,9 +68,9 @@ struct Harmonics {
     return static_cast<std::size_t>(settings.harmonics) + 1;
   }
 
-  /// Samples of x and v, and the transform's rows of them.
+  /// The transform's rows of samples of x and v, and of their sums.
   [[nodiscard]] static double values_held(const Settings& settings) {
-    return from_samples(settings) ? 6 * static_cast<double>(settings.harmonics_samples) : 0.0;
+    return from_samples(settings) ? 4 * static_cast<double>(settings.harmonics_samples) : 0.0;
   }
   /// The transform and a thread's memory for it, if samples are taken. Throws std::bad_alloc.
   [[nodiscard]] static FourierScratch scratch_for(const Settings& settings);

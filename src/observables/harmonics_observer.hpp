@@ -7,7 +7,7 @@
 
 #include "observables/exact_harmonics.hpp"
 #include "observables/harmonics.hpp"
-#include "observables/samples.hpp"
+#include "observables/row_sampler.hpp"
 
 namespace clatter::observables {
 
@@ -15,8 +15,8 @@ class Harmonics::Observer {
  public:
   Observer(const Settings& settings, const ObservedSpan& span) : highest_(count_of(settings) - 1) {
     if (from_samples(settings)) {
-      const auto count = static_cast<std::size_t>(settings.harmonics_samples);
-      samples_.emplace(count, span.total / static_cast<double>(count), AtImpact::mean, span.scene.stops);
+      const auto [x, v] = span.fourier->transform->samples(*span.fourier->workspace);
+      samples_.emplace(x, v, span.total / static_cast<double>(x.size()), span.scene.stops);
     } else {
       exact_.emplace(highest_, span.base_frequency);
     }
@@ -33,10 +33,12 @@ class Harmonics::Observer {
     by([&](auto& observer) { observer.impact(impact); });
   }
   void strike(const motion::Strike& strike) { impact(strike.of_main()); }
-  /// Exact harmonics know the response; samples have to be taken from its course.
+  /// Exact harmonics know the response; those of its samples are the same, since a sine over whole periods has one sum
+  /// alone that isn't 0.
   bool response(const ObservedSpan& span, double x) {
-    if (exact_) exact_->response(span.scene.oscillator, span.scene.start.phase, x, span.total);
-    return exact_.has_value();
+    if (samples_) exact_.emplace(highest_, span.base_frequency);
+    exact_->response(span.scene.oscillator, span.scene.start.phase, x, span.total);
+    return true;
   }
   /// Of the exact method: takes over all flights at once, as `ExactHarmonics::flights`.
   void flights(const ObservedSpan& span, const PhasePoint& first, const PhasePoint& last,
@@ -56,9 +58,12 @@ class Harmonics::Observer {
     function(*samples_);
   }
 
+  [[nodiscard]] Values finish_exact(const ObservedSpan& span, double x);
+  [[nodiscard]] Values finish_samples(const ObservedSpan& span, double x, double v);
+
   std::size_t highest_;
-  std::optional<ExactHarmonics> exact_;  ///< one of the two
-  std::optional<Samples> samples_;
+  std::optional<RowSampler> samples_;    ///< none by the exact method
+  std::optional<ExactHarmonics> exact_;  ///< by the exact method, and of the response
 };
 
 }  // namespace clatter::observables

@@ -49,9 +49,9 @@ void add_transform(Digest& digest) {
   constexpr std::size_t size = 512;
   const observables::FourierTransform transform(size);
   const auto workspace = transform.workspace();
-  std::vector<double> x(size), v(size);
+  const auto [x, v] = transform.samples(*workspace);
   for (std::size_t i = 0; i < size; ++i) x[i] = sample(static_cast<int>(i)), v[i] = sample(static_cast<int>(i + size));
-  for (const auto& row : transform.transform({x, v}, *workspace))
+  for (const auto& row : transform.transform(*workspace))
     for (const std::complex<double>& value : row) digest.add(value.real()), digest.add(value.imag());
 }
 

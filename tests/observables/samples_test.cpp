@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
+#include <optional>
+#include <utility>
 
 #include "math/fifty_digits.hpp"
 #include "motion/arc_bounds.hpp"
-#include "observables/fourier_transform.hpp"
+#include "observables/arc_of.hpp"
 #include "observables/runs.hpp"
-#include "support/random.hpp"
 
 namespace clatter::observables {
 namespace {
@@ -21,7 +21,7 @@ Samples samples_of(const point::Problem& scene, std::size_t count, bool with_end
     const auto end = run(*samples);
     samples->finish(end.x, end.v, total, true);
   });
-  return *samples;
+  return std::move(*samples);
 }
 
 TEST(Samples, of_free_vibration_lie_on_its_arcs_both_ends_included) {
@@ -55,14 +55,6 @@ TEST(Samples, never_lie_outside_the_stops) {
   const auto [low, high] = std::minmax_element(samples.displacement().begin(), samples.displacement().end());
   EXPECT_GE(*low, -0.5);
   EXPECT_LE(*high, 0.5);
-}
-
-/// An arc of an oscillator from (x, v) at the phase (0.6, 0.8).
-template <class Number, Effects E>
-motion::Arc<Number, E> arc_of(const motion::ArcConstants<Number, E>& constants, double x, double v) {
-  motion::Motion<Number> m{Number(0), Number(x), Number(v), Number(0), Number(6) / 10, Number(8) / 10};
-  m.a = constants.acceleration(m.x - constants.equilibrium, m.v, m.sine);
-  return {constants, m};
 }
 
 TEST(Samples, by_steps_from_an_instant_are_as_good_as_evaluated_ones) {
@@ -104,42 +96,6 @@ TEST(Samples, of_short_flights_are_evaluated_each) {
     const motion::Motion<double> expected = arc.at(static_cast<double>(i) * (length / 50));
     EXPECT_EQ(samples.displacement()[i], std::min(expected.x, 5e-10));
     EXPECT_EQ(samples.velocity()[i], expected.v);
-  }
-}
-
-/// N samples of 0.25 + 3 cos(5 tau + 0.7) over a period.
-std::vector<double> cosine(std::size_t n) {
-  std::vector<double> samples;
-  for (std::size_t i = 0; i < n; ++i)
-    samples.push_back(
-        0.25 + 3 * std::cos(2 * std::numbers::pi * static_cast<double>(5 * i % n) / static_cast<double>(n) + 0.7));
-  return samples;
-}
-
-TEST(FourierTransform, finds_a_sum_of_cosines) {
-  const std::size_t n = 64;
-  const FourierTransform transform(n);
-  const auto workspace = transform.workspace();
-  const auto sums = transform.transform({cosine(n), cosine(n)}, *workspace);
-  for (const auto& c : sums) {
-    ASSERT_EQ(c.size(), n / 2 + 1);
-    EXPECT_NEAR(c[0].real() / n, 0.25, 1e-15);
-    EXPECT_NEAR(2 * std::abs(c[5]) / n, 3.0, 2e-15);
-    EXPECT_NEAR(std::arg(c[5]), 0.7, 1e-15);
-    EXPECT_LT(std::abs(c[4]) / n, 1e-15);
-  }
-}
-
-TEST(FourierTransform, a_row_has_the_same_bits_in_either_place_and_beside_any_other) {
-  for (const std::size_t n : std::initializer_list<std::size_t>{2, 3, 4, 15, 16, 64, 101, 1000, 1001, 4096}) {
-    support::Random random(44, n);
-    std::vector<double> row = cosine(n), other(n);
-    for (double& sample : other) sample = random.uniform(-1e3, 1e3);
-    const FourierTransform transform(n), again(n);
-    const auto workspace = transform.workspace(), another = transform.workspace();
-    const auto first = transform.transform({row, other}, *workspace)[0];
-    const auto second = again.transform({other, row}, *another)[1];
-    EXPECT_TRUE(std::ranges::equal(first, second)) << n;
   }
 }
 
