@@ -1,10 +1,8 @@
 #include "observables/step_row.hpp"
 
-#include "math/number.hpp"
-
 namespace clatter::observables {
 
-// One source for every instruction set. A sample has the same operations in each, none of them fused, and so the same
+// One source for both instruction sets. A sample has the same operations in each, none of them fused, and so the same
 // bits.
 [[gnu::always_inline]] inline void StepRow::take_here(const motion::Motion<double>& from, double anchor,
                                                       const Stops& stops, double* x, double* v) const {
@@ -21,19 +19,13 @@ namespace clatter::observables {
         (v_.sine[i] * sine + v_.cosine[i] * cosine) + (v_.free_x[i] * free_x + v_.free_v[i] * free_v) + v_.constant[i];
   }
 }
-[[gnu::target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")]] void StepRow::take_by_avx512(
-    const motion::Motion<double>& from, double anchor, const Stops& stops, double* x, double* v) const {
-  take_here(from, anchor, stops, x, v);
-}
 [[gnu::target("avx2")]] void StepRow::take_by_avx2(const motion::Motion<double>& from, double anchor,
                                                    const Stops& stops, double* x, double* v) const {
   take_here(from, anchor, stops, x, v);
 }
 
 void StepRow::take(const motion::Motion<double>& from, double anchor, const Stops& stops, double* x, double* v) const {
-  static const bool has_avx512 = __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"),
-                    has_avx2 = __builtin_cpu_supports("avx2");
-  if (has_avx512) return take_by_avx512(from, anchor, stops, x, v);
+  static const bool has_avx2 = __builtin_cpu_supports("avx2");
   if (has_avx2) return take_by_avx2(from, anchor, stops, x, v);
   take_here(from, anchor, stops, x, v);
 }

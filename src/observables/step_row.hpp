@@ -54,8 +54,6 @@ class StepRow {
 
   void take_here(const motion::Motion<double>& from, double anchor, const Stops& stops, double* x, double* v) const;
   void take_by_avx2(const motion::Motion<double>& from, double anchor, const Stops& stops, double* x, double* v) const;
-  void take_by_avx512(const motion::Motion<double>& from, double anchor, const Stops& stops, double* x,
-                      double* v) const;
 
   Terms x_{}, v_{};
   std::size_t made_ = 0;

@@ -259,6 +259,29 @@ TEST(Run, harmonics_beyond_half_the_sampling_rate_have_no_value) {
   for (std::size_t k = 0; k <= 4; ++k) EXPECT_EQ(std::isnan(result.x_spectrum.amplitude[k]), 2 * 2 * k >= 14) << k;
 }
 
+TEST(Run, sampled_harmonics_of_a_response_are_known_without_its_samples) {
+  point::Problem scene = paper_scene(6, 1.1);
+  scene.oscillator.load = 0.3, scene.start.phase = 0.7;
+  scene.observe.harmonics = 4;
+  scene.observe.harmonics_samples = 7;  // the fourth is beyond half their rate
+  point::ThreadScratch scratch{observables::Harmonics::scratch_for(scene.observe)};
+  const point::PointResult known = run_point(scene, scratch);
+  EXPECT_EQ(known.found_by, steady::FoundBy::closed_form);
+  EXPECT_EQ(known.evaluations, 0);
+  scene.integration.shortcuts = false;  // takes them
+  const point::PointResult flown = run_point(scene, scratch);
+  EXPECT_GT(flown.evaluations, 7);
+  for (const auto spectrum : {&point::PointResult::x_spectrum, &point::PointResult::v_spectrum}) {
+    EXPECT_NEAR((known.*spectrum).phase[1], (flown.*spectrum).phase[1], 1e-11);  // what it calls a repeat
+    for (std::size_t k = 0; k <= 4; ++k) {
+      EXPECT_EQ(std::isnan((known.*spectrum).amplitude[k]), k == 4) << k;
+      EXPECT_EQ(std::isnan((flown.*spectrum).amplitude[k]), k == 4) << k;
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR((known.*spectrum).amplitude[k], (flown.*spectrum).amplitude[k], 1e-11) << k;
+  }
+}
+
 TEST(Run, too_few_samples_for_the_base_frequency_give_no_harmonics_at_all) {
   point::Problem scene =
       paper_scene(3.0, 0.9);  // Fig. 23: aperiodic, so the samples are shared by the periods of the window
