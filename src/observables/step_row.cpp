@@ -6,7 +6,8 @@ namespace clatter::observables {
 // bits.
 [[gnu::always_inline]] inline void StepRow::take_here(const motion::Motion<double>& from, double anchor,
                                                       const Stops& stops, double* x, double* v) const {
-  double* __restrict places = x, * __restrict velocities = v;
+  double* __restrict places = x;
+  double* __restrict velocities = v;
   const double sine = from.sine, cosine = from.cosine, free_x = from.free_x, free_v = from.free_v;
   const double offset = from.offset, lower = stops.lower, upper = stops.upper;
   for (std::size_t i = 0; i < size; ++i) {
