@@ -47,7 +47,7 @@ SHAPES = {
     "trajectory": (sweep({"nu": linspace(2000)}, observe="trajectory = 2001"), ()),
     "harmonics": (sweep({"nu": linspace(20000)}, observe='harmonics = 100\nharmonics_method = "exact"'), ()),
     "harmonics by FFT": (
-        sweep({"nu": linspace(50)}, time="", observe="harmonics = 10\nharmonics_samples = 500000"),
+        sweep({"nu": linspace(50)}, observe="harmonics = 10\nharmonics_samples = 500000"),
         (),
     ),
     "short logs": (
