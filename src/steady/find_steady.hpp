@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "steady/coasting.hpp"
 #include "steady/doubt.hpp"
 #include "steady/forced_search.hpp"
 #include "steady/free_search.hpp"
@@ -42,6 +44,16 @@ template <stepping::Integrator I>
   }
 }
 
+/// Forced motion by the shortcuts. Without stops its start tells the end, and a search, which keeps hundreds of
+/// sections, needn't begin.
+template <Effects E>
+[[nodiscard]] ObservedTime find_by_shortcuts(stepping::Exact<double, E>& integrator, const motion::State<double>& state,
+                                             const Scene& scene, const TimeSettings& time) {
+  if constexpr (!E.stops())
+    if (auto found = Coasting<E>(integrator, scene, time.tolerance).from(state, 0.0, 0.0)) return std::move(*found);
+  return ForcedSearch<E>(integrator, scene, time).run(state);
+}
+
 /// Without a loose mass.
 template <stepping::Integrator I>
 [[nodiscard]] ObservedTime find_steady_between_stops(I& integrator, const motion::State<double>& state,
@@ -55,7 +67,7 @@ template <stepping::Integrator I>
     if (integration.all_effects)
       return find_repetition(integrator, state, scene, time, last_look(scene.oscillator, time.max_periods));
     if constexpr (I::in_closed_form)
-      if (integration.shortcuts) return ForcedSearch<E>(integrator, scene, time).run(state);
+      if (integration.shortcuts) return find_by_shortcuts(integrator, state, scene, time);
     return find_repetition(integrator, state, scene, time, 0);
   }
   return {};

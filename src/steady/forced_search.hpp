@@ -8,10 +8,12 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "motion/soft_stop.hpp"
 #include "scene/displacement_bound.hpp"
 #include "scene/response.hpp"
+#include "steady/coasting.hpp"
 #include "steady/doubt.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/stroboscopic_map.hpp"
@@ -35,8 +37,7 @@ class ForcedSearch {
         scene_(scene),
         time_(time),
         in_lanes_(advanced_by == AdvancedBy::lanes),
-        may_coast_(scene.oscillator.damping != 0 &&
-                   !(E.stops() && response_meets(scene.oscillator, integrator.stops()))),
+        coasting_(integrator, scene, time.tolerance),
         log_area_of_damping_(-2 * integrator.constants().h * integrator.period()),
         repeat_(time.tolerance, in_lanes_ ? 4 : 1),
         begins_before_(scene.oscillator.forcing),
@@ -48,7 +49,7 @@ class ForcedSearch {
   /// Runs from `state`, at a section, until the steady state is known.
   [[nodiscard]] ObservedTime run(motion::State<double> state) {
     for (;;) {
-      if (const auto found = at_section(state)) return *found;
+      if (auto found = at_section(state)) return std::move(*found);
       const stepping::Outcome outcome = advance(state);
       if (outcome != stepping::Outcome::completed) return failure(outcome, state);
       ++section_;
@@ -57,9 +58,9 @@ class ForcedSearch {
 
   /// The steady state, if it is known at the next section; nothing: the motion has to go on.
   [[nodiscard]] std::optional<ObservedTime> at_section(const motion::State<double>& state) {
-    if (const auto found = closed_form(state)) return found;
+    if (auto found = closed_form(state)) return found;
     if constexpr (E.soft)
-      if (const auto found = pressed(state)) return found;
+      if (auto found = pressed(state)) return found;
     if constexpr (E.stiffness || E.forcing == Forcing::secular)
       if (escapes(scene_, state.x, state.v, integrator_.phase(motion::State<double>{})))
         return escape(state, simulated());
@@ -95,7 +96,6 @@ class ForcedSearch {
  private:
   static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt is made
   static constexpr std::int64_t long_settling = 128;
-  static constexpr double longest_settling = 0x1p52;  ///< the most periods that double counts exactly
   static constexpr std::size_t kept = 2 * RepeatFinder::longest;
   static constexpr std::int64_t first_sample = 256, between_samples = 8;
   static constexpr std::int64_t looked_at = 3 * RepeatFinder::longest;  ///< sections in a row that an attempt looks at
@@ -159,22 +159,10 @@ class ForcedSearch {
     return state;
   }
 
-  /// The steady forced response, if no stop is in reach from now on and damping removes the rest of the transient,
-  /// however long that may take.
+  /// The steady forced response, if no stop is in reach from now on.
   [[nodiscard]] std::optional<ObservedTime> closed_form(const motion::State<double>& state) const {
-    const Oscillator& o = scene_.oscillator;
-    if (!may_coast_ || (section_ > 0 && passages_[index(1)].itinerary != 0)) return std::nullopt;
-    const auto [sine, cosine] = integrator_.phase(motion::State<double>{});
-    const double middle = equilibrium_of(o);
-    const PhaseState now{state.x - middle, state.v, sine, cosine};
-    if (E.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
-    const PhasePoint response = response_at(o, sine, cosine), left = transient_of(o, now);
-    const double x = middle + response.x, most = time_.tolerance * std::max(std::abs(x), std::abs(response.v));
-    const double periods = fading_time(o, left, most) / integrator_.period();
-    if (!(periods < longest_settling)) return std::nullopt;
-    motion::State<double> steady = state;
-    steady.x = x, steady.v = response.v, steady.from_stop = Side::none;
-    return ObservedTime{Status::periodic, steady, 1.0, simulated(), FoundBy::closed_form, settled() + periods};
+    if (section_ > 0 && passages_[index(1)].itinerary != 0) return std::nullopt;
+    return coasting_.from(state, settled(), simulated());
   }
 
   /// The soft stop that a state is in contact with.
@@ -289,7 +277,7 @@ class ForcedSearch {
   const Scene& scene_;
   TimeSettings time_;
   bool in_lanes_;
-  bool may_coast_;               ///< the transient may die out without a contact
+  Coasting<E> coasting_;
   double log_area_of_damping_;   ///< logarithm of the factor by which a forcing period shrinks areas without impacts
   bool samples_ = false;         ///< lanes: sections have been left out before this one
   std::int64_t look_until_ = 0;  ///< lanes: the section up to which none is left out
