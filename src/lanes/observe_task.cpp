@@ -176,7 +176,8 @@ point::PointResult ObserveTask<E>::result(const LaneView& lane, point::ThreadScr
   if (has_spent_budget(section.impacts))
     return observe_in_scalar_loop(failed(stepping::Outcome::event_budget, lane), scratch);
   if (leaves_lane()) return observe_in_scalar_loop(settled_, scratch);
-  point::Point point(item().problem, scratch, fallback_.loop());
+  ScalarLoop<E> loop = fallback_.loop();
+  point::Point point(item().problem, scratch, loop);
   point::Observers observers = point.begin(observed);
   motion::State<double> end = observed.from;
   end.x = section.x, end.v = section.v;

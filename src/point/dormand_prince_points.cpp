@@ -7,7 +7,7 @@ namespace clatter::point {
 
 PointResult run_by_dormand_prince(const Problem& problem, ThreadScratch& scratch) {
   return with_general_effects(problem, [&]<Effects effects>() {
-    const stepping::DormandPrince<effects> integrator(problem, problem.integration, limits_of(problem));
+    stepping::DormandPrince<effects> integrator(problem, problem.integration, limits_of(problem));
     return Point(problem, scratch, integrator).run();
   });
 }

@@ -50,8 +50,7 @@ template <Effects E>
 void ExactPoints<E>::run(std::span<const WorkItem> items, ThreadScratch& scratch,
                          const std::function<void(const WorkItem&, PointResult&&)>& take) {
   for (const WorkItem& item : items) {
-    const Integrator integrator(item.problem, stops_in_reach(item.problem.stops, item.effects),
-                                limits_of(item.problem));
+    Integrator integrator(item.problem, stops_in_reach(item.problem.stops, item.effects), limits_of(item.problem));
     take(item, Point(item.problem, scratch, integrator).run());
   }
 }
@@ -59,7 +58,8 @@ void ExactPoints<E>::run(std::span<const WorkItem> items, ThreadScratch& scratch
 template <Effects E>
 PointResult ExactPoints<E>::observe(const Problem& problem, ThreadScratch& scratch, const Integrator& integrator,
                                     const steady::ObservedTime& observed) {
-  return Point(problem, scratch, integrator).observe(observed);
+  Integrator further = integrator;
+  return Point(problem, scratch, further).observe(observed);
 }
 
 template <Effects E>

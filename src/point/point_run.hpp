@@ -22,11 +22,12 @@ using Observers = observables::Observers<observables::All>;
   return state;
 }
 
-/// One point on its way to a result: its motion is found, then observed.
+/// One point on its way to a result: its motion is found, then observed, by an integrator that it brings further. The
+/// result is part of it, and to be taken from it.
 template <stepping::Integrator I>
 class Point {
  public:
-  Point(const Problem& problem, ThreadScratch& scratch, const I& integrator)
+  Point(const Problem& problem, ThreadScratch& scratch, I& integrator)
       : problem_(problem),
         integrator_(integrator),
         decisions_(scratch.decisions),
@@ -34,41 +35,28 @@ class Point {
     integrator_.report_to(&scratch.progress);
   }
 
-  PointResult run() {
-    const steady::ObservedTime found = find_steady(integrator_, start(), problem_, problem_.time, problem_.integration);
-    if constexpr (I::in_closed_form) return observe(decisions_.decided(problem_, found));
-    return observe(found);
+  PointResult&& run() {
+    observed_ = find_steady(integrator_, start(), problem_, problem_.time, problem_.integration);
+    if constexpr (I::in_closed_form)
+      if (observed_.doubtful) observed_ = decisions_.decided(problem_, std::move(observed_));
+    return observe();
   }
 
   /// The result of a motion whose observed time is known.
-  PointResult observe(const steady::ObservedTime& observed) {
-    if (failed(observed.status)) return result_of(observed);
-    Observers observers = begin(observed);
-    motion::State<double> state = observed.from;
-    const bool steady = observed.found_by == steady::FoundBy::closed_form && observed.from.within == Side::none &&
-                        problem_.oscillator.forcing != 0 && problem_.observe.base_frequency == 0;
-    if (steady) observers.response(span_, state.x);
-    stepping::Outcome outcome = stepping::Outcome::completed;
-    if (observers.need_flights()) {
-      outcome = observed.sections.empty() ? run_for(integrator_, state, observed.turns, observers)
-                                          : run_by_sections(state, observed.sections, observers);
-    } else {
-      state.periods += static_cast<std::int64_t>(observed.turns);
-    }
-    if (outcome == stepping::Outcome::completed) outcome = complete_section(observers, state);
-    return end(observers, state, outcome);
+  PointResult&& observe(const steady::ObservedTime& observed) {
+    observed_ = observed;
+    return observe();
   }
 
   /// The observers of the motion from `observed.from` on.
   Observers begin(const steady::ObservedTime& observed) {
     observed_ = observed;
-    describe_span();
-    return Observers(problem_.observe, span_);
+    return begin();
   }
   [[nodiscard]] const observables::ObservedSpan& span() const { return span_; }  ///< once observation has begun
 
   /// The result, once the observers have seen the motion up to `state`.
-  PointResult end(Observers& observers, const motion::State<double>& state, stepping::Outcome outcome) {
+  PointResult&& end(Observers& observers, const motion::State<double>& state, stepping::Outcome outcome) {
     result_.observed_turns = observed_.turns;
     result_.evaluations = observers.evaluations();
     if (outcome != stepping::Outcome::completed) return broken(state, steady::status_of(outcome));
@@ -85,15 +73,34 @@ class Point {
       result_.settling_periods =
           settling_periods(integrator_, start(), observed_, problem_.time, observables::Settling::settled,
                            factor_of(problem_.units, Quantity::velocity), problem_.loose);
-    steady::ObservedTime complete = observed_;
-    if (span_.periodic && problem_.oscillator.forcing != 0 && grazing_is_told(observers))
-      complete.status = steady::Status::grazing;
-    complete.simulated += observed_.turns + periods_beyond_;
-    return result_of(complete);
+    const bool grazes = span_.periodic && problem_.oscillator.forcing != 0 && grazing_is_told(observers);
+    return result_with(grazes ? steady::Status::grazing : observed_.status, observed_.turns + periods_beyond_);
   }
 
  private:
   [[nodiscard]] motion::State<double> start() const { return start_of(problem_); }
+
+  PointResult&& observe() {
+    if (failed(observed_.status)) return result_with(observed_.status, 0.0);
+    Observers observers = begin();
+    motion::State<double> state = observed_.from;
+    const bool steady = observed_.found_by == steady::FoundBy::closed_form && observed_.from.within == Side::none &&
+                        problem_.oscillator.forcing != 0 && problem_.observe.base_frequency == 0;
+    if (steady) observers.response(span_, state.x);
+    stepping::Outcome outcome = stepping::Outcome::completed;
+    if (observers.need_flights()) {
+      outcome = observed_.sections.empty() ? run_for(integrator_, state, observed_.turns, observers)
+                                           : run_by_sections(state, observed_.sections, observers);
+    } else {
+      state.periods += static_cast<std::int64_t>(observed_.turns);
+    }
+    if (outcome == stepping::Outcome::completed) outcome = complete_section(observers, state);
+    return end(observers, state, outcome);
+  }
+  Observers begin() {
+    describe_span();
+    return Observers(problem_.observe, span_);
+  }
 
   /// Whether derivatives that are asked for don't exist, since the motion grazes a stop.
   [[nodiscard]] static bool grazing_is_told(Observers& observers) {
@@ -176,27 +183,25 @@ class Point {
   }
 
   /// The result if the run, or an observable, fails at a state.
-  PointResult broken(const motion::State<double>& state, steady::Status status) {
-    steady::ObservedTime observed = observed_;
-    observed.status = status;
-    observed.simulated += static_cast<double>(state.periods - observed_.from.periods) + state.phase_turns;
-    return result_of(observed);
+  PointResult&& broken(const motion::State<double>& state, steady::Status status) {
+    return result_with(status, static_cast<double>(state.periods - observed_.from.periods) + state.phase_turns);
   }
 
-  PointResult result_of(const steady::ObservedTime& observed) {
-    result_.status = observed.status, result_.found_by = observed.found_by, result_.periods = observed.simulated;
-    result_.settling_estimate = observed.settling;
+  /// The result after so many forcing periods beyond those of the search.
+  PointResult&& result_with(steady::Status status, double periods) {
+    result_.status = status, result_.found_by = observed_.found_by, result_.periods = observed_.simulated + periods;
+    result_.settling_estimate = observed_.settling;
     result_.impacts = integrator_.impacts();
     result_.evaluations += integrator_.evaluations();
     return std::move(result_);
   }
 
   const Problem& problem_;
-  I integrator_;
+  I& integrator_;
   Decisions& decisions_;
   steady::ObservedTime observed_{};
   observables::ObservedSpan span_;
-  PointResult result_{};
+  PointResult result_;
   double periods_beyond_ = 0.0;  ///< the observed time, for the section
 };
 
