@@ -62,16 +62,26 @@ double gap_of(const Oscillator& oscillator, const Stops& stops) {
 
 }  // namespace
 
-PhasePoint response_at(const Oscillator& oscillator, double sine, double cosine) {
-  const double nu = oscillator.frequency;
-  const auto [P, Q, amplitude] = steady_response(oscillator);
+namespace {
+
+PhasePoint at_phase(const Response<double>& response, double nu, double sine, double cosine) {
+  const auto [P, Q, amplitude] = response;
   if (amplitude == 0) return {0, 0};
   return {P * sine + Q * cosine, nu * (P * cosine - Q * sine)};
 }
 
-PhasePoint transient_of(const Oscillator& oscillator, const PhaseState& now) {
-  const PhasePoint response = response_at(oscillator, now.sine, now.cosine);
+PhasePoint without(const PhasePoint& response, const PhaseState& now) {
   return {now.x - response.x, now.v - response.v};
+}
+
+}  // namespace
+
+PhasePoint response_at(const Oscillator& oscillator, double sine, double cosine) {
+  return at_phase(steady_response(oscillator), oscillator.frequency, sine, cosine);
+}
+
+PhasePoint transient_of(const Oscillator& oscillator, const PhaseState& now) {
+  return without(response_at(oscillator, now.sine, now.cosine), now);
 }
 
 namespace {
@@ -151,13 +161,19 @@ double displacement_bound(const Oscillator& oscillator, const PhaseState& now, d
     return displacement_bound(with_unit_spring(oscillator), with_unit_spring(oscillator, now),
                               duration * natural_frequency(oscillator), enough);
   const auto response = steady_response(oscillator);
-  const PhasePoint transient = transient_of(oscillator, now);
+  const PhasePoint transient = without(at_phase(response, oscillator.frequency, now.sine, now.cosine), now);
   double bound = std::numeric_limits<double>::infinity();
   if (!(oscillator.damping >= 0)) return bound;
   const auto improve = [&](double other) {
     if (other * (1 + rounding) < bound) bound = other * (1 + rounding);  // a NaN is no improvement
   };
-  improve(response.amplitude + transient_bound(oscillator, transient) + rounding * response.amplitude);
+  const auto improve_by_transient = [&](double most) {
+    improve(response.amplitude + most + rounding * response.amplitude);
+  };
+  if (oscillator.stiffness == 1) improve_by_transient(norm(transient.x, transient.v));  // its energy: the cheapest
+  if (bound < enough) return bound;
+  improve_by_transient(transient_bound(oscillator, transient));
+  if (bound < enough) return bound;
   improve(displacement_bound_through_impacts(oscillator, now, duration));
   if (bound < enough || !rotates_decaying(oscillator) || !(response.amplitude > 0)) return bound;
   const Complex theta(now.cosine, now.sine), R = Complex(response.in_phase, response.quadrature) * theta;

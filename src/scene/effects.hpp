@@ -193,14 +193,22 @@ inline constexpr double secular_distance = 1.0 / 16.0;
 }
 static_assert(every_scene_has_a_set());
 
-/// Calls `function.operator()<set>()` for the cheapest compiled set that contains the effects.
-template <class Function, std::size_t candidate = 0>
-decltype(auto) with_effects(const Effects& effects, Function&& function) {
+namespace detail {
+
+template <std::size_t candidate, class Function>
+decltype(auto) with_effect_set(std::size_t set, Function&& function) {
   if constexpr (candidate + 1 < compiled_effects.size()) {
-    if (effect_set_of(effects) != candidate)
-      return with_effects<Function, candidate + 1>(effects, static_cast<Function&&>(function));
+    if (set != candidate) return with_effect_set<candidate + 1>(set, static_cast<Function&&>(function));
   }
   return function.template operator()<compiled_effects[candidate]>();
+}
+
+}  // namespace detail
+
+/// Calls `function.operator()<set>()` for the cheapest compiled set that contains the effects.
+template <class Function>
+decltype(auto) with_effects(const Effects& effects, Function&& function) {
+  return detail::with_effect_set<0>(effect_set_of(effects), static_cast<Function&&>(function));
 }
 
 /// The effects that general methods simulate in every scene; damping only says how small changes of a motion decay.

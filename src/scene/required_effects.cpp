@@ -40,9 +40,11 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
   const bool soft_lower = is_soft(stops, Side::lower), soft_upper = is_soft(stops, Side::upper);
   const double x0 = scene.start.displacement;
   const bool in_a_stop = (soft_lower && x0 < stops.lower) || (soft_upper && x0 > stops.upper);
-  needs.reach = in_a_stop ? infinity : displacement_bound_through_impacts(o, start, duration);  // it stores energy
+  const bool meets_none = needs.free_reach < needs.lower_gap && needs.free_reach < needs.upper_gap;
+  if (!meets_none || bounds == Sharpness::sharpest)
+    needs.reach = in_a_stop ? infinity : displacement_bound_through_impacts(o, start, duration);  // it stores energy
   Effects& effects = needs.effects;
-  if (!(needs.free_reach < needs.lower_gap && needs.free_reach < needs.upper_gap)) {  // else none is ever met
+  if (!meets_none) {
     effects.lower = std::isfinite(stops.lower) && !(needs.reach < needs.lower_gap);
     effects.upper = std::isfinite(stops.upper) && !(needs.reach < needs.upper_gap);
   }
