@@ -109,6 +109,7 @@ struct SineCosine {
 template <class Number>
 [[nodiscard]] SineCosine<Number> sine_cosine_of_turns(const Number& turns) {
   using std::cos, std::floor, std::sin;
+  if (is_always_zero(turns)) return {turns, Number(1)};  // each section, if the start has no phase
   const Number quarters = floor(4 * turns + Number(0.5));
   const Number angle = 2 * pi<Number>() * (turns - quarters / 4);  // exact difference, |angle| <= pi/4
   const Number s = sin(angle), c = cos(angle);
@@ -123,6 +124,7 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Number turns_of(const Number& angle) {
   using std::atan2, std::cos, std::sin;
+  if (is_always_zero(angle)) return angle;  // the phase of most starts
   return atan2(Number(sin(angle)), Number(cos(angle))) / (2 * pi<Number>());
 }
 

@@ -22,8 +22,7 @@ class EventDriven : public LoosePhases<Method, N, E> {
   /// Looks for contacts with the stops in reach only.
   EventDriven(const Scene& scene, const Stops& in_reach, const Limits& limits, const motion::ChatterRule<Number>& rule)
       : Base(scene, in_reach, limits),
-        low_{rule.low[0] * motion::displacements_beside(scene, Side::lower),
-             rule.low[1] * motion::displacements_beside(scene, Side::upper)},
+        low_{low_beside(scene, Side::lower, rule), low_beside(scene, Side::upper, rule)},
         chatter_accuracy_(rule.accuracy) {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section (the stroboscopic section of
@@ -138,6 +137,9 @@ class EventDriven : public LoosePhases<Method, N, E> {
     state.from_stop = stop.side, state.offset = 0;
     if (stop.into(state.v) > 0) state.v = stop.law.after(state.v);
     if (state.v == 0) state.v = 0;  // no negative zero
+  }
+  [[nodiscard]] static Number low_beside(const Scene& scene, Side side, const motion::ChatterRule<Number>& rule) {
+    return E.rest ? Number(rule.low[index_of(side)] * motion::displacements_beside(scene, side)) : Number(0);
   }
   [[nodiscard]] std::optional<Number> chatter_time(const motion::State<Number>& state,
                                                    const motion::Stop<Number>& stop) const {
