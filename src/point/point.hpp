@@ -52,7 +52,7 @@ struct WorkItem {
   std::size_t chain = 0;     ///< of a run: points that start from the ends of each other, or a single one (`Share`)
   std::size_t position = 0;  ///< along it
   Problem problem;
-  Effects effects;
+  Effects effects{};
 };
 
 /// Runs points of one compiled set of effects, or one general method, with one dispatch for all. `take` gets

@@ -44,10 +44,12 @@ class Share {
 
   /// Index in the sweep of the i-th point of the run's own n-th chain.
   [[nodiscard]] std::size_t point(std::size_t n, std::size_t i) const {
-    return chains_.point(shard_.number + n * shard_.of, i);
+    const std::size_t chain = shard_.number + n * shard_.of;
+    return chains_.length == 1 ? chain : chains_.point(chain, i);
   }
   /// Number of points of this run with a smaller index in the sweep. If each chain is one point, that is n.
   [[nodiscard]] std::size_t local_index(std::size_t n, std::size_t i) const {
+    if (chains_.length == 1) return n;
     const std::size_t block = (shard_.number + n * shard_.of) / chains_.stride * chains_.stride;
     const Row row = row_of(block, chains_.value(i));
     return (chains_.returns(i) ? count_ * chains_.values : 0) + row.begin + (n - row.first);

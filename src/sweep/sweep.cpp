@@ -6,7 +6,7 @@
 namespace clatter::sweep {
 
 void enter_shaken_frame(point::Problem& problem) {
-  static_cast<Scene&>(problem) = in_shaken_frame(problem);
+  if (is_shaken(problem.shaking)) static_cast<Scene&>(problem) = in_shaken_frame(problem);
   problem.observe.section_phase += problem.shaking.lead;
 }
 
@@ -36,20 +36,26 @@ std::size_t size_one_way(const Sweep& sweep) {
   return points;
 }
 
-point::Problem computed(const GivenProblem& given) {
+namespace {
+
+point::Problem problem_of(const GivenScene& given, const point::RunSettings& settings) {
   const auto [scene, units] = clatter::computed(given);
-  point::Problem problem{scene, given, units};
-  if (!given.observe.sensitivity.empty()) problem.given = given;
+  point::Problem problem{scene, settings, units};
+  if (!settings.observe.sensitivity.empty()) problem.given = given;
   problem.time.duration /= units.time;
   problem.observe.base_frequency *= units.is_si ? 2 * std::numbers::pi * units.time : units.time;
   enter_shaken_frame(problem);
   return problem;
 }
 
+}  // namespace
+
+point::Problem computed(const GivenProblem& given) { return problem_of(given, given); }
+
 point::Problem problem_at(const Sweep& sweep, std::size_t point) {
-  GivenProblem given = sweep.problem;
+  GivenScene given = sweep.problem;
   each_coordinate(sweep, point, [&](const Axis& axis, double value) { set(given, axis.parameter, value); });
-  return computed(given);
+  return problem_of(given, sweep.problem);
 }
 
 }  // namespace clatter::sweep

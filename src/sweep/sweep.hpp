@@ -58,10 +58,11 @@ struct Sweep {
 /// Calls `take(axis, value)` for each axis at a point.
 template <class Take>
 void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
-  std::size_t stride = size_one_way(sweep);
+  std::size_t stride = size_one_way(sweep), rest = point % stride;
   for (const Dimension& dimension : sweep.dimensions) {
     stride /= length(dimension);
-    const std::size_t index = point / stride % length(dimension);
+    const std::size_t index = rest / stride;
+    rest %= stride;
     for (const Axis& axis : dimension) take(axis, axis.values[index]);
   }
 }

@@ -19,22 +19,27 @@ std::size_t slab_of(const Share& share) {
   return share.points() <= many ? share.count() : slab / share.length() + 1;
 }
 
-WorkStats work_of(const point::WorkItem& item, const point::PointResult& result) {
-  WorkStats work{.effects = item.effects,
-                 .points = 1,
-                 .impacts = result.impacts,
-                 .periods = result.periods,
-                 .evaluations = result.evaluations};
-  work.found_by[static_cast<std::size_t>(result.found_by)] = 1;
-  return work;
+/// The work on the points with the same effects.
+WorkStats& work_with(const Effects& effects, std::vector<WorkStats>& work) {
+  const auto same = std::ranges::find(work, effects, &WorkStats::effects);
+  return same != work.end() ? *same : work.emplace_back(WorkStats{.effects = effects});
 }
 
-void add(std::vector<WorkStats>& sum, const WorkStats& part) {
-  auto same = std::ranges::find(sum, part.effects, &WorkStats::effects);
-  if (same == sum.end()) same = sum.insert(sum.end(), WorkStats{.effects = part.effects});
-  same->points += part.points;
-  for (std::size_t i = 0; i < part.found_by.size(); ++i) same->found_by[i] += part.found_by[i];
-  same->impacts += part.impacts, same->periods += part.periods, same->evaluations += part.evaluations;
+void add(WorkStats& sum, const point::PointResult& result) {
+  ++sum.points, ++sum.found_by[static_cast<std::size_t>(result.found_by)];
+  sum.impacts += result.impacts, sum.periods += result.periods, sum.evaluations += result.evaluations;
+}
+
+void add(WorkStats& sum, const WorkStats& part) {
+  sum.points += part.points;
+  for (std::size_t i = 0; i < part.found_by.size(); ++i) sum.found_by[i] += part.found_by[i];
+  sum.impacts += part.impacts, sum.periods += part.periods, sum.evaluations += part.evaluations;
+}
+
+/// An item whose effects aren't known yet; a function of its own, in which GCC doesn't clear the item before it fills
+/// it.
+point::WorkItem begun(std::size_t chain, std::size_t position, const Sweep& sweep, std::size_t point) {
+  return {chain, position, problem_at(sweep, point)};
 }
 
 }  // namespace
@@ -72,7 +77,7 @@ void WorkerPool::run() {
 std::vector<WorkStats> WorkerPool::work() const {
   std::vector<WorkStats> sum;
   for (const std::vector<WorkStats>& of_thread : work_)
-    for (const WorkStats& part : of_thread) add(sum, part);
+    for (const WorkStats& part : of_thread) add(work_with(part.effects, sum), part);
   std::ranges::sort(sum, cheaper, &WorkStats::effects);
   return sum;
 }
@@ -104,7 +109,7 @@ std::optional<WorkerPool::Chunk> WorkerPool::next_chunk() {
 point::WorkItem WorkerPool::item_of(std::size_t chain, std::size_t position, const std::optional<point::End>& end,
                                     const Units& units_of_end) const {
   const std::size_t point = share_.point(chain, position);
-  point::WorkItem item{chain, position, problem_at(sweep_, mirror_images_.original_of(point).value_or(point)), {}};
+  point::WorkItem item = begun(chain, position, sweep_, mirror_images_.original_of(point).value_or(point));
   if (sweep_.follow) start_from(item.problem, end, units_of_end);
   item.effects = effects_of(item.problem);
   return item;
@@ -113,14 +118,14 @@ point::WorkItem WorkerPool::item_of(std::size_t chain, std::size_t position, con
 void WorkerPool::run_lanes(std::size_t thread) {
   std::vector<point::WorkItem> ready;  // next points of chains that have been begun
   std::size_t begun = 0, ended = 0;    // chains
-  const auto take = [&](const point::WorkItem& item, point::PointResult&& result) {
+  const lanes::ResultSink take = [&](const point::WorkItem& item, point::PointResult&& result) {
     if (auto successor = store(item, std::move(result), thread))
       ready.push_back(std::move(*successor));
     else
       ++ended;
   };
   Chunk chunk{0, 0};
-  const auto begin_branch = [&]() -> std::optional<point::WorkItem> {
+  const auto next_chain = [&]() -> std::optional<std::size_t> {
     if (sweep_.follow && begun - ended >= most_branches_) return std::nullopt;
     for (;; ++chunk.begin) {
       if (chunk.begin == chunk.end) {
@@ -130,19 +135,21 @@ void WorkerPool::run_lanes(std::size_t thread) {
       }
       if (is_left_out(chunk.begin)) continue;
       ++begun;
-      return item_of(chunk.begin++);
+      return chunk.begin++;
     }
+  };
+  const auto take_ready = [&] {
+    point::WorkItem item = std::move(ready.back());
+    ready.pop_back();
+    return item;
   };
   const auto next = [&]() -> std::optional<point::WorkItem> {
     for (;;) {
-      std::optional<point::WorkItem> item;
-      if (ready.empty()) {
-        item = begin_branch();
-      } else {
-        item = std::move(ready.back()), ready.pop_back();
-      }
-      if (!item || lanes::accepts(*item)) return item;
-      run_batch({&*item, 1}, scratches_[thread], take);
+      const std::optional<std::size_t> chain = ready.empty() ? next_chain() : std::nullopt;
+      if (ready.empty() && !chain) return std::nullopt;
+      const point::WorkItem item = chain ? item_of(*chain) : take_ready();
+      if (lanes::accepts(item)) return item;
+      run_batch({&item, 1}, scratches_[thread], take);
     }
   };
   lanes::Scheduler scheduler(arch_, scratches_[thread], next, take);
@@ -153,9 +160,10 @@ void WorkerPool::run_lanes(std::size_t thread) {
 
 std::optional<point::WorkItem> WorkerPool::store(const point::WorkItem& item, point::PointResult&& result,
                                                  std::size_t thread) {
+  const bool has_next = item.position + 1 < share_.length();
   std::optional<point::End> end;
-  if (!failed(result.status)) end = end_for_next(item.problem, result.end);
-  add(work_[thread], work_of(item, result));
+  if (has_next && !failed(result.status)) end = end_for_next(item.problem, result.end);
+  add(work_with(item.effects, work_[thread]), result);
   if (mirror_images_.exist()) {
     const std::size_t point = share_.point(item.chain, item.position);
     if (mirror_images_.original_of(point)) {
@@ -166,7 +174,7 @@ std::optional<point::WorkItem> WorkerPool::store(const point::WorkItem& item, po
   }
   store_.store(share_.local_index(item.chain, item.position), std::move(result), item.problem.units);
   progress_.add_point(thread);
-  if (item.position + 1 < share_.length()) return item_of(item.chain, item.position + 1, end, item.problem.units);
+  if (has_next) return item_of(item.chain, item.position + 1, end, item.problem.units);
   states_.finish(item.chain);
   return std::nullopt;
 }
