@@ -228,6 +228,21 @@ TEST(Cost, motion_out_of_reach_of_its_stops_is_one_arc) {
   EXPECT_GT(cost_of(silent).result.evaluations, 1000);
 }
 
+TEST(Cost, a_point_of_a_sweep_out_of_reach_of_its_stops_allocates_nothing) {
+  const auto allocations = [](std::size_t points) {
+    std::vector<double> frequencies(points);
+    for (std::size_t i = 0; i < points; ++i) frequencies[i] = 0.5 + static_cast<double>(i) / 1e4;
+    const Sweep sweep =
+        sweep_of(observing(paper_scene(60, 1), Extrema::Settings{.extrema = true}), {{"nu", frequencies}});
+    SweepRun sweep_run(sweep);
+    const long before = allocated;
+    sweep_run.run({.threads = 1});
+    return allocated - before;
+  };
+  const long few = allocations(1000), more = allocations(3000);
+  EXPECT_LT(more - few, 2000 / 10);  // nothing but for whole batches of points
+}
+
 TEST(Cost, conservative_motion_is_run_for_its_one_period) {
   point::Problem scene;
   scene.stops = {-0.749, 0.749, 1.0, 1.0}, scene.start.velocity = -1.5;

@@ -37,6 +37,24 @@ TEST(Sweep, linked_axes_run_together) {
   EXPECT_EQ(problem_at(sweep, 1).oscillator.forcing, 20);
 }
 
+TEST(Sweep, points_count_as_an_odometer_does_and_begin_anew_on_the_way_back) {
+  Sweep sweep;
+  sweep.dimensions = {{{nu, {1, 2}}}, {{f, {10, 20, 30}}}, {{xs, {100}}}, {{"R", {0.1, 0.2, 0.3, 0.4, 0.5}}}};
+  sweep.follow = 1, sweep.direction = Direction::both;
+  std::size_t point = 0;
+  for (int way = 0; way < 2; ++way)
+    for (const double nu_value : {1, 2})
+      for (const double f_value : {10, 20, 30})
+        for (const double R_value : {0.1, 0.2, 0.3, 0.4, 0.5}) {
+          const point::Problem scene = problem_at(sweep, point++);
+          EXPECT_EQ(scene.oscillator.frequency, nu_value);
+          EXPECT_EQ(scene.oscillator.forcing, f_value);
+          EXPECT_EQ(scene.stops.lower, -100);
+          EXPECT_EQ(scene.stops.restitution_upper, R_value);
+        }
+  EXPECT_EQ(point, size(sweep));
+}
+
 TEST(StartPeriod, follows_the_stops_whether_it_is_fixed_or_swept) {
   Sweep fixed;
   fixed.dimensions = {{{xs, {-1, -2}}}};
