@@ -204,6 +204,11 @@ TEST(RequiredEffects, damping_and_resonance_are_told_apart_at_their_borders) {
   EXPECT_EQ(forcing(1 + secular_distance), Forcing::regular);
   EXPECT_EQ(forcing(1 - secular_distance), Forcing::regular);
   EXPECT_EQ(forcing_of({0.0, 0.0, 1.0, 0.0}), Forcing::none);
+  EXPECT_EQ(forcing(nan), Forcing::regular);
+  const double part = secular_distance / std::sqrt(2.0);  // of both, so that neither tells by itself
+  EXPECT_EQ(forcing_of({part * (1 - 4 * ulp), 1.0, 1 - part * (1 - 64 * ulp), 0.0}), Forcing::secular);
+  EXPECT_EQ(forcing_of({part * (1 + 4 * ulp), 1.0, 1 - part * (1 + 64 * ulp), 0.0}), Forcing::regular);
+  EXPECT_EQ(forcing_of({secular_distance, 1.0, 1.0, 0.0}), Forcing::regular);
 }
 
 }  // namespace
