@@ -18,6 +18,8 @@ $(help_lines "and for the benchmarks (${BENCH_PACKAGES[*]}),")
 --build measures, instead of all that, what it costs to build the program and then its tests: processor and wall time,
 by folder and for the longest files, each from nothing, which takes some ten minutes. With COMMIT that commit's sources
 are measured first. Nothing else should run meanwhile.
+--growth measures, instead of all that, how time and memory grow with points, periods, shards and motions, with
+the options that scripts/bench_growth.py --help tells.
 --plan compares, instead of all that, the times that the command plan foretells with those of the runs of ten sweeps.
 --quick takes one repetition and smaller sweeps, to see that all works. --arch NAME makes the whole processes
 use that instruction set; the other benchmarks use each in turn.
@@ -25,7 +27,7 @@ END
 }
 
 usage() {
-  echo "usage: scripts/bench.sh [--quick] [--arch NAME] | --build [COMMIT] | --plan"
+  echo "usage: scripts/bench.sh [--quick] [--arch NAME] | --build [COMMIT] | --growth [OPTION]... | --plan"
   echo
   steps
 }
@@ -37,6 +39,7 @@ solver_filter=all
 processes=()
 proofs=()
 build=()
+growth=
 plan=
 while (($# > 0)); do
   case "$1" in
@@ -65,6 +68,7 @@ while (($# > 0)); do
         shift
       fi
       ;;
+    --growth) growth=yes; shift; break ;;
     --plan) plan=yes; shift ;;
     -h | --help) usage; exit 0 ;;
     *) echo "bench.sh: unknown argument '$1'; try --help" >&2; exit 2 ;;
@@ -75,6 +79,12 @@ cd "$source_dir"
 if ((${#build[@]} > 0)); then
   install_missing "${BUILD_PACKAGES[@]}" python3
   exec /usr/bin/python3 -B "${build[@]}"
+fi
+if [[ -n $growth ]]; then
+  install_missing "${BUILD_PACKAGES[@]}" python3
+  cmake --preset release
+  cmake --build --preset release --target clatter
+  exec /usr/bin/python3 -B scripts/bench_growth.py "$@"
 fi
 if [[ -n $plan ]]; then
   install_missing "${BUILD_PACKAGES[@]}" python3

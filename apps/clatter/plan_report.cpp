@@ -167,8 +167,8 @@ std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
   text += line("memory", bytes_text(need.memory) +
                              (need.log > 0 ? ", by an estimate of the impact log: " + bytes_text(need.log) : "") +
                              (std::isfinite(plan.available_memory) ? ", of " + bytes_text(plan.available_memory) : ""));
-  text += line("disk", bytes_text(need.disk()) + " at most: output, journal" +
-                           (need.in_files > 0 ? ", and results that don't go into memory" : "") + "; here are " +
+  text += line("disk", bytes_text(need.disk()) + " at most: output" +
+                           (need.in_files > 0 ? ", journal, and results that don't go into memory" : " and journal") + "; here are " +
                            bytes_text(static_cast<double>(storage::room_at("."))) + " free");
   text += line("merge of shards", bytes_text(need.merging) + " of memory, and the whole output on its disk");
   return text;

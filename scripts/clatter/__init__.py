@@ -19,4 +19,4 @@ from ._pictures import plot, report
 from ._program import ClatterError, ClatterWarning, ConfigError, branch, plan, run
 
 __all__ = ["ClatterError", "ClatterWarning", "ConfigError", "branch", "plan", "plot", "report", "run"]
-__version__ = "0.2.0"
+__version__ = "0.3.0"

@@ -184,23 +184,25 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::S
       std::max(threads * value * observables::All::values_held(sweep.problem.observe), saving_bytes(sweep, parts));
   const double numbering = parts.motions + std::max(parts.motions, parts.numbers);
   const double writing = parts.numbers + parts.writing(1);
-  return {.output = parts.output(),
-          .memory = before_bytes(parts, threads) + bits + parts.in_memory() +
-                    std::max({working, sweep.problem.observe.attractor ? numbering : 0.0, writing}),
-          .log = sweep.problem.observe.impact_log ? log_in_memory(parts) : 0.0,
-          .in_files = parts.in_files(),
-          .journal = parts.packed + logged_impact * parts.impacts,
-          .logged = parts.impacts * parts.logged,
-          .merging = merge_bytes(sweep, shard ? impacts * static_cast<double>(shard->of) : impacts)};
+  return {
+      .output = parts.output(),
+      .memory = before_bytes(parts, threads) + bits + parts.in_memory() +
+                std::max({working, sweep.problem.observe.attractor ? numbering : 0.0, writing}),
+      .log = sweep.problem.observe.impact_log ? log_in_memory(parts) : 0.0,
+      .in_files = parts.in_files(),
+      .journal = parts.packed + logged_impact * parts.impacts,
+      .logged = parts.impacts * parts.logged,
+      .merging = merge_bytes(sweep, shard ? shard->of : 1, shard ? impacts * static_cast<double>(shard->of) : impacts)};
 }
 
-double merge_bytes(const sweep::Sweep& sweep, double impacts) {
+double merge_bytes(const sweep::Sweep& sweep, std::size_t shards, double impacts) {
   const Parts parts = parts_of(sweep, std::nullopt, impacts);
   double of_point = value;  // of the variable that has most
   for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.problem))
     of_point = std::max(of_point, output.text ? text_in_file : static_cast<double>(output.width()) * value);
   const double most = sweep::joined_at_once;
-  const double block = 2 * std::min(most, of_point * parts.points), log = 2 * std::min(most, value * impacts);
+  const double block = 2 * std::min(most, of_point * parts.points),
+               log = (1 + 1 / static_cast<double>(shards)) * std::min(most, value * impacts);
   const double numbering = parts.numbered + parts.motions + std::max(parts.motions, parts.numbers);
   return before_bytes(parts, 0) + std::max(numbering, parts.numbers + block + log + parts.writing(1));
 }

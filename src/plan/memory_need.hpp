@@ -30,8 +30,8 @@ struct MemoryNeed {
 [[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard, int threads,
                                      double impacts);
 
-/// Bytes of memory that merging the shards of a sweep takes, with so many impacts in all logs.
-[[nodiscard]] double merge_bytes(const sweep::Sweep& sweep, double impacts);
+/// Bytes of memory that merging so many shards of a sweep takes, with so many impacts in all logs.
+[[nodiscard]] double merge_bytes(const sweep::Sweep& sweep, std::size_t shards, double impacts);
 
 /// An estimate of the impacts in the log of a sweep or a shard, from short runs of a few of its points.
 [[nodiscard]] double expected_impacts(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard);

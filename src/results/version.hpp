@@ -4,7 +4,7 @@
 
 namespace clatter::results {
 
-/// The project's version, e.g. "0.2.0".
+/// The project's version, e.g. "0.3.0".
 [[nodiscard]] std::string_view version();
 
 /// The day of its release, e.g. "2026-11-24".

@@ -127,11 +127,11 @@ void Scratch::count(std::size_t pages) const {
 }
 
 std::byte* Arena::room_for(std::size_t bytes) {
-  constexpr std::size_t least = 64UL << 10U, most = 16UL << 20U, alignment = alignof(double);
+  constexpr std::size_t least = 64UL << 10U, most = 64UL << 20U, alignment = alignof(double);
   bytes = (bytes + alignment - 1) / alignment * alignment;
   const std::lock_guard lock(mutex_);
   if (bytes > left_.size()) {
-    segments_.push_back(scratch_.region(std::max(bytes, std::clamp(size_, least, most))));
+    segments_.push_back(scratch_.region(std::max(bytes, std::clamp(size_ / 4, least, most))));
     left_ = segments_.back()->as<std::byte>();
     size_ += left_.size();
   }

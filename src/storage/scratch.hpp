@@ -37,9 +37,9 @@ class Region {
 /// beside the output, whose pages the system keeps on the disk. Threads may use it at the same time.
 class Scratch {
  public:
-  static constexpr std::size_t most_in_memory = 384UL << 20U;  ///< bytes
-  static constexpr std::size_t most_resident = 192UL << 20U;   ///< bytes of pages of the files
-  static constexpr std::size_t between_checks = 64UL << 20U;   ///< bytes of pages, of all threads
+  static constexpr std::size_t most_in_memory = 344UL << 20U;  ///< bytes
+  static constexpr std::size_t most_resident = 96UL << 20U;   ///< bytes of pages of the files
+  static constexpr std::size_t between_checks = 16UL << 20U;   ///< bytes of pages, of all threads
 
   /// `output` is the file that the results are for; nothing: all is held in memory.
   explicit Scratch(const std::optional<std::filesystem::path>& output = {}, std::size_t in_memory = most_in_memory);

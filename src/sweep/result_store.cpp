@@ -13,11 +13,11 @@ namespace {
 
 using observables::LogColumn, observables::LoggedImpact;
 
+/// Puts values at a place, and returns the place behind them.
 template <class T>
-requires std::is_trivially_copyable_v<T>
-void append(std::vector<std::byte>& to, std::span<const T> values) {
-  const auto bytes = std::as_bytes(values);
-  to.insert(to.end(), bytes.begin(), bytes.end());
+requires std::is_trivially_copyable_v<T> std::byte* put(std::byte* place, std::span<const T> values) {
+  if (!values.empty()) std::memcpy(place, values.data(), values.size_bytes());
+  return place + values.size_bytes();
 }
 
 template <class T>
@@ -46,6 +46,14 @@ std::size_t bytes_in_scratch(const Sweep& sweep, std::span<const OutputVariable>
   for (const OutputVariable& output : outputs)
     if (!is_numbered_by(sweep, output)) bytes += size_of(output);
   return sweep.problem.observe.impact_log ? bytes + sizeof(void*) : bytes;
+}
+
+/// Bytes of a point in the journal at most, without its log.
+std::size_t most_packed_of(std::span<const OutputVariable> outputs) {
+  std::size_t bytes = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);
+  for (const OutputVariable& output : outputs)
+    bytes += output.text ? sizeof(TextLength) + output.longest_text : output.width() * sizeof(double);
+  return bytes;
 }
 
 /// The values of a column, one part after the other, which each are `made` of values there.
@@ -80,8 +88,10 @@ ResultStore::ResultStore(const Sweep& sweep, const std::optional<results::Shard>
     const std::size_t bytes = points * size_of(output);
     columns_.push_back(is_numbered_by(sweep, output) ? storage::Scratch::region_in_memory(bytes)
                                                      : scratch_->region(bytes));
+    rows_.push_back({columns_.back()->as<double>().data(), output.text ? 0 : output.width()});
   }
   if (sweep.problem.observe.impact_log) log_ = scratch_->region(points * sizeof(Kept));
+  most_packed_without_log_ = most_packed_of(outputs_) + (log_ ? sizeof(std::uint64_t) : 0);
   pages_of_point_ = 4 + 2 * outputs_.size() + bytes_in_scratch(sweep, outputs_) / 4096;
 }
 
@@ -94,11 +104,6 @@ ResultStore::Kept ResultStore::keep(std::span<const Part> parts) {
   std::memcpy(room, &count, sizeof count), std::memcpy(room + sizeof count, parts.data(), parts.size_bytes());
   scratch_->touched(parts.size_bytes() / 4096);
   return reinterpret_cast<Kept>(room);
-}
-
-std::span<double> ResultStore::values(std::size_t output, std::size_t local_index) const {
-  const std::size_t width = outputs_[output].width();
-  return columns_[output]->as<double>().subspan(local_index * width, width);
 }
 
 void ResultStore::store(std::size_t local_index, point::PointResult&& result, const Units& units) {
@@ -132,35 +137,33 @@ void ResultStore::to_users_units(std::size_t local_index, const Units& units) {
   }
 }
 
-std::size_t ResultStore::most_packed_without_log() const {
-  std::size_t bytes = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);
-  for (const OutputVariable& output : outputs_)
-    bytes += output.text ? sizeof(TextLength) + output.longest_text : output.width() * sizeof(double);
-  return log_ ? bytes + sizeof(std::uint64_t) : bytes;
-}
-
 std::size_t ResultStore::most_packed(std::size_t local_index) const {
-  return most_packed_without_log() + (log_ ? parts_of<LoggedImpact>(logs()[local_index]).size_bytes() : 0);
+  return most_packed_without_log_ + (log_ ? parts_of<LoggedImpact>(logs()[local_index]).size_bytes() : 0);
 }
 
 void ResultStore::pack(std::size_t local_index, std::vector<std::byte>& to) const {
-  append<std::uint8_t>(to, status_->as<std::uint8_t>().subspan(local_index, 1));
-  append<std::int64_t>(to, impacts_->as<std::int64_t>().subspan(local_index, 1));
-  append<double>(to, periods_->as<double>().subspan(local_index, 1));
+  const std::size_t before = to.size();
+  to.resize(before + most_packed(local_index));
+  std::byte* place = to.data() + before;
+  place = put<std::uint8_t>(place, status_->as<std::uint8_t>().subspan(local_index, 1));
+  place = put<std::int64_t>(place, impacts_->as<std::int64_t>().subspan(local_index, 1));
+  place = put<double>(place, periods_->as<double>().subspan(local_index, 1));
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     if (outputs_[i].text) {
       const auto text = parts_of<char>(texts(i)[local_index]);
       const auto length = static_cast<TextLength>(text.size());
-      append(to, std::span(&length, 1)), append(to, text);
+      place = put(put(place, std::span(&length, 1)), text);
     } else {
-      append<double>(to, values(i, local_index));
+      place = put<double>(place, values(i, local_index));
     }
   }
+  if (log_) {
+    const auto log = parts_of<LoggedImpact>(logs()[local_index]);
+    const std::uint64_t count = log.size();
+    place = put(put(place, std::span(&count, 1)), log);
+  }
+  to.resize(static_cast<std::size_t>(place - to.data()));
   scratch_->touched(pages_of_point_);
-  if (!log_) return;
-  const auto log = parts_of<LoggedImpact>(logs()[local_index]);
-  const std::uint64_t count = log.size();
-  append(to, std::span(&count, 1)), append(to, log);
 }
 
 bool ResultStore::unpack(std::size_t local_index, std::span<const std::byte>& from) {

@@ -33,7 +33,7 @@ class ResultStore {
 
   /// Bytes that `pack` appends for a point, at most.
   [[nodiscard]] std::size_t most_packed(std::size_t local_index) const;
-  [[nodiscard]] std::size_t most_packed_without_log() const;
+  [[nodiscard]] std::size_t most_packed_without_log() const { return most_packed_without_log_; }
   /// Appends a point's results, as `unpack` takes them from a run of the same sweep.
   void pack(std::size_t local_index, std::vector<std::byte>& to) const;
   /// Takes a point's results off the beginning of `from`. Returns false if they don't belong to this sweep; the point's
@@ -51,6 +51,11 @@ class ResultStore {
 
  private:
   using Column = std::shared_ptr<const storage::Region>;
+  /// The numbers in a column, so many a point.
+  struct Rows {
+    double* begin;
+    std::size_t width;
+  };
 
   /// What a point has of a length of its own, a text or a log: the number of its parts, and behind it the parts. A null
   /// pointer is nothing.
@@ -63,7 +68,9 @@ class ResultStore {
   [[nodiscard]] Kept keep(std::span<const Part> parts);
 
   void to_users_units(std::size_t local_index, const Units& units);
-  [[nodiscard]] std::span<double> values(std::size_t output, std::size_t local_index) const;
+  [[nodiscard]] std::span<double> values(std::size_t output, std::size_t local_index) const {
+    return {rows_[output].begin + local_index * rows_[output].width, rows_[output].width};
+  }
   [[nodiscard]] std::span<Kept> texts(std::size_t output) const { return columns_[output]->as<Kept>(); }
   [[nodiscard]] std::span<Kept> logs() const { return log_->as<Kept>(); }
   [[nodiscard]] std::size_t logged() const;
@@ -80,8 +87,10 @@ class ResultStore {
   Column impacts_;               ///< std::int64_t [local index]
   Column periods_;               ///< double [local index]
   std::vector<Column> columns_;  ///< [output]: double [local index][width], of a text Kept [local index]
+  std::vector<Rows> rows_;       ///< [output]: the numbers in its column
   Column log_;                   ///< Kept [local index]; none if no log is observed
-  std::size_t pages_of_point_;   ///< that storing one touches, at most
+  std::size_t most_packed_without_log_ = 0;
+  std::size_t pages_of_point_ = 0;  ///< that storing one touches, at most
   std::optional<attractors::Numbering> numbering_;
 };
 

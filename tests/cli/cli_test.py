@@ -112,7 +112,7 @@ class WrongConfigurations(CommandLine):
             2, r"--set scene.R=\xff: the byte \xff is not UTF-8", "run", config, "--set", b"scene.R=\xff"
         )
 
-    def test_results_beyond_the_memory_are_refused_at_once(self):
+    def test_results_beyond_the_disk_are_refused_at_once(self):
         config = self.write("a.toml", SMALL)
         axes = [f"--set=sweep.{axis}=linspace(0.1, 1, 1000)" for axis in ("nu", "h", "f")]
         text = SMALL.replace("f = -1.0\n", "").replace("h = 0.1\n", "")
@@ -120,7 +120,7 @@ class WrongConfigurations(CommandLine):
         for command in ("run", "plan"):
             self.assert_refused(
                 74,
-                "not enough memory: 1000000000 points take",
+                "not enough disk space: the results take",
                 command,
                 "huge.toml",
                 *axes,

@@ -201,6 +201,10 @@ class Faults(StoppedRuns):
                     result = self.run_command(*words, threads=1, output=output)
                     context = (kibibytes, words, result.returncode, result.stderr)
                     self.assertIn(result.returncode, (0, 74, 124), context)
+                    if kibibytes <= needed // 2:
+                        self.assertRegex(
+                            result.stderr, r"not enough disk space: the results take \S+ KiB beside '\S+', .* are free"
+                        )
                     done = done or result.returncode == 0
                     self.assertEqual(output.exists(), done, context)
                     self.assertTrue(not done or output.read_bytes() == self.whole, context)
@@ -335,8 +339,32 @@ class Faults(StoppedRuns):
             )
             self.assertEqual(result.returncode, 74)
             self.assertEqual(self.files(), before)
+        with self.small_disk(len(self.whole) // 2048) as disk:
+            result = subprocess.run([*command[:3], disk / "a.h5", *command[4:]], capture_output=True, text=True)
+            self.assertEqual(result.returncode, 74)
+            self.assertRegex(result.stderr, r"not enough disk space: the merged file takes \S+ KiB beside '\S+', ")
+            self.assertEqual(list(disk.iterdir()), [])
         self.assertEqual(subprocess.run(command, capture_output=True).returncode, 0)
         self.assertEqual(self.output.read_bytes(), self.whole)
+
+    @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
+    def test_a_merge_that_is_killed_leaves_the_shards_and_nothing_else(self):
+        for number in range(2):
+            self.run_command("--shard", f"{number}/2", output=self.directory / f"{number}.h5")
+        before = self.files()
+        command = [CLATTER, "merge", "-o", self.output, self.directory / "0.h5", self.directory / "1.h5"]
+        killed = 0
+        for call in ("write", "ftruncate", "fsync", "linkat"):
+            for n in (1, 2, 5):
+                faults = {"LD_PRELOAD": str(self.shim), "CLATTER_FAULT": f"{call} {n} kill"}
+                result = subprocess.run(command, capture_output=True, env={**os.environ, **faults})
+                if result.returncode == 0:
+                    self.output.unlink()
+                    continue
+                killed += 1
+                self.assertEqual(result.returncode, -signal.SIGKILL)
+                self.assertEqual(self.files(), before)
+        self.assertGreater(killed, 5)
 
 
 if __name__ == "__main__":

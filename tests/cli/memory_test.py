@@ -58,6 +58,10 @@ SHAPES = {
         sweep({"v0": linspace(200, 1, 2)}, TO_AND_FRO, time=LOGGED.format(1000.0), observe="impact_log = true"),
         (),
     ),
+    "log in files": (
+        sweep({"v0": linspace(1500, 1, 2)}, TO_AND_FRO, time=LOGGED.format(1000.0), observe="impact_log = true"),
+        (),
+    ),
     "compression": (
         sweep(
             {"nu": linspace(10**6)},

@@ -143,7 +143,7 @@ TEST(Memory, of_a_log_of_steady_motion_is_that_of_the_observed_time) {
 }
 
 TEST(Memory, of_a_merge_grows_with_the_axes_and_not_with_the_points) {
-  EXPECT_EQ(merge_bytes(square(20'000), 0) - merge_bytes(square(10'000), 0), 2 * 10'000 * 8);
+  EXPECT_EQ(merge_bytes(square(20'000), 7, 0) - merge_bytes(square(10'000), 7, 0), 2 * 10'000 * 8);
 }
 
 }  // namespace
