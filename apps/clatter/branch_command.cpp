@@ -82,9 +82,11 @@ int run_branch(const Arguments& arguments) {
   std::vector<Parameter> parameters{settings.along};
   if (settings.across) parameters.push_back(*settings.across);
   // before anything is printed, as a reader such as head may close the pipe
-  place.write_atomically([&](storage::FileWriter& to) {
-    results::write_file(to, branch_dataset(found, settings, start.units, has_loose_mass(start.loose)), config);
-  });
+  const results::FileHead& head = config;
+  const auto write = [&](storage::FileWriter& to) {
+    results::write_file(to, branch_dataset(found, settings, start.units, has_loose_mass(start.loose)), head);
+  };
+  place.write_atomically(write);
   for (const SpecialPoint& special : found.special)
     std::cout << (arguments.has("json") ? special_json : special_text)(special, parameters, start.units);
   std::cout << std::flush;

@@ -18,7 +18,7 @@ int print_plan(const Arguments& arguments) {
   const std::optional<results::Shard> shard = shard_of(arguments);
   const config::Config config = config_of(arguments);
   const plan::MemoryNeed need = check_memory(config, shard, threads);
-  check_disk(config, need, output_of(arguments, ".h5"));
+  check_disk(config, need, arguments.operands[0] == "-" ? "clatter.h5" : output_of(arguments, ".h5"));
   const sweep::RunOptions options{.threads = threads, .arch = arch};
   plan::Plan plan = plan::plan_of(config.sweep, options, need, shard);
   const std::optional<double> seconds = foretold_seconds(config, options, shard, need);

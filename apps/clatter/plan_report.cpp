@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "format.hpp"
-#include "storage/file_writer.hpp"
 
 namespace clatter::app {
 namespace {
@@ -168,8 +167,7 @@ std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
                              (need.log > 0 ? ", by an estimate of the impact log: " + bytes_text(need.log) : "") +
                              (std::isfinite(plan.available_memory) ? ", of " + bytes_text(plan.available_memory) : ""));
   text += line("disk", bytes_text(need.disk()) + " at most: output" +
-                           (need.in_files > 0 ? ", journal, and results that don't go into memory" : " and journal") + "; here are " +
-                           bytes_text(static_cast<double>(storage::room_at("."))) + " free");
+                           (need.in_files > 0 ? ", journal, and results that don't go into memory" : " and journal"));
   text += line("merge of shards", bytes_text(need.merging) + " of memory, and the whole output on its disk");
   return text;
 }

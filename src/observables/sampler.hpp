@@ -81,6 +81,7 @@ class Sampler {
   /// The rows from the next sample on.
   [[nodiscard]] std::span<double> next_x() const { return x_.subspan(taken_); }
   [[nodiscard]] std::span<double> next_v() const { return v_.subspan(taken_); }
+  [[nodiscard]] std::size_t taken() const { return taken_; }
   /// The next samples have been written.
   void take(std::size_t count) { taken_ += count, evaluations_ += count; }
 

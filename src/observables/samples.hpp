@@ -40,13 +40,14 @@ class Samples : public Sampler {
 
   /// The instants since the beginning of the observed time, `end` being the last.
   [[nodiscard]] std::vector<double> times(double end) const {
-    std::vector<double> tau(x_.size());
+    std::vector<double> tau(count());
     for (std::size_t i = 0; i + 1 < tau.size(); ++i) tau[i] = instant(i);
     tau.back() = end;
     return tau;
   }
-  [[nodiscard]] std::vector<double>& displacement() { return x_; }
-  [[nodiscard]] std::vector<double>& velocity() { return v_; }
+  /// Those that have been taken: all, once the observed time has ended.
+  [[nodiscard]] std::vector<double>& displacement() { return x_.resize(taken()), x_; }
+  [[nodiscard]] std::vector<double>& velocity() { return v_.resize(taken()), v_; }
 
  private:
   Samples(std::vector<double> x, std::vector<double> v, double spacing, AtImpact at_impact, const Stops& stops,

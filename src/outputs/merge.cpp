@@ -151,9 +151,9 @@ Merge::Merge(const ShardSet& shards) : shards_(shards) {
 
 /// Of a great many shards only some files are open.
 results::ShardReader& Merge::reader(std::size_t shard) {
-  constexpr std::size_t most_open = 128;
   const auto found = std::ranges::find(open_, shard);
-  if (found == open_.end() && open_.size() == most_open) readers_[open_.front()].close(), open_.pop_front();
+  if (found == open_.end() && open_.size() == results::most_open_shards)
+    readers_[open_.front()].close(), open_.pop_front();
   if (found == open_.end()) open_.push_back(shard);
   return readers_[shard];
 }

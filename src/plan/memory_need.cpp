@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "point/point.hpp"
+#include "results/shard_file.hpp"
 #include "storage/scratch.hpp"
 #include "sweep/attractor_table.hpp"
 #include "sweep/chains.hpp"
@@ -200,11 +201,13 @@ double merge_bytes(const sweep::Sweep& sweep, std::size_t shards, double impacts
   double of_point = value;  // of the variable that has most
   for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.problem))
     of_point = std::max(of_point, output.text ? text_in_file : static_cast<double>(output.width()) * value);
+  constexpr double of_open_file = 0.64 * kibi * kibi;
+  const double open = of_open_file * static_cast<double>(std::min(shards, results::most_open_shards));
   const double most = sweep::joined_at_once;
   const double block = 2 * std::min(most, of_point * parts.points),
                log = (1 + 1 / static_cast<double>(shards)) * std::min(most, value * impacts);
   const double numbering = parts.numbered + parts.motions + std::max(parts.motions, parts.numbers);
-  return before_bytes(parts, 0) + std::max(numbering, parts.numbers + block + log + parts.writing(1));
+  return before_bytes(parts, 0) + open + std::max(numbering, parts.numbers + block + log + parts.writing(1));
 }
 
 double expected_impacts(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard) {

@@ -311,11 +311,9 @@ void write_file_with_checksum(storage::FileWriter& file, Dataset dataset, const 
 }
 
 std::vector<std::byte> file_image(Dataset dataset, const FileHead& head) {
-  const storage::Descriptor memory = storage::memory_file();
-  storage::FileWriter file(memory, "the file in memory");
-  std::vector<std::byte> bytes(build(file, dataset, head));
-  file.read(0, bytes);
-  return bytes;
+  storage::MemoryWriter file;
+  static_cast<void>(build(file, dataset, head));
+  return file.take();
 }
 
 void collect(Dataset& dataset) {

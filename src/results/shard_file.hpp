@@ -30,6 +30,9 @@ using MostValues = std::function<std::optional<double>(const ShardHeader&)>;
 /// IoError.
 [[nodiscard]] ShardHeader read_shard_header(const std::string& path, const MostValues& most_values);
 
+/// Files of shards that are open at once, at most.
+inline constexpr std::size_t most_open_shards = 128;
+
 /// Reads parts of a shard's file whose header has been read. Throws IoError.
 class ShardReader {
  public:

@@ -63,7 +63,7 @@ void write_atomically(const std::string& path, const std::function<void(FileWrit
   const fs::path target = target_of(path);
   remove_abandoned(target);
   TemporaryFile file{target};
-  FileWriter writer(file.descriptor(), target, steps.make_room);
+  DiskWriter writer(file.descriptor(), target, steps.make_room);
   write(writer);
   file.sync();
   steps.before_rename();

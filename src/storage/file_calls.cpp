@@ -1,13 +1,11 @@
 #include "storage/file_calls.hpp"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
@@ -78,12 +76,6 @@ void sync_directory(const fs::path& file) {
 }
 
 fs::path directory_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path{"."}; }
-
-Descriptor memory_file() {
-  Descriptor file{::memfd_create("clatter", MFD_CLOEXEC)};
-  if (file.number() < 0) throw std::bad_alloc();
-  return file;
-}
 
 void write_all(const Descriptor& file, std::span<const std::byte> bytes, const fs::path& named) {
   while (!bytes.empty()) {

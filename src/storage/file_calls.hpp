@@ -62,9 +62,6 @@ void sync_directory(const std::filesystem::path& file);
 
 [[nodiscard]] std::filesystem::path directory_of(const std::filesystem::path& path);
 
-/// A file in memory, open for reading and writing. Throws std::bad_alloc.
-[[nodiscard]] Descriptor memory_file();
-
 /// The most bytes for one call: for more, Linux takes large pages for its cache, and on a virtual machine the host
 /// often has to provide these first, at ten times the cost.
 inline constexpr std::size_t written_at_once = 64UL * 1024;

@@ -18,10 +18,10 @@ std::uint64_t room_at(const fs::path& path) {
   return std::uint64_t{system.f_bavail} * system.f_frsize;
 }
 
-FileWriter::FileWriter(const Descriptor& file, fs::path named, MakeRoom make_room)
+DiskWriter::DiskWriter(const Descriptor& file, fs::path named, MakeRoom make_room)
     : file_(file), named_(std::move(named)), make_room_(std::move(make_room)) {}
 
-void FileWriter::write(std::uint64_t at, std::span<const std::byte> bytes) {
+void DiskWriter::write(std::uint64_t at, std::span<const std::byte> bytes) {
   for (bool has_asked = false; !bytes.empty();) {
     const std::size_t next = std::min(bytes.size(), written_at_once);
     const ssize_t written =
@@ -39,12 +39,12 @@ void FileWriter::write(std::uint64_t at, std::span<const std::byte> bytes) {
   }
 }
 
-void FileWriter::make_room_for(std::uint64_t bytes) const {
+void DiskWriter::make_room_for(std::uint64_t bytes) const {
   const std::uint64_t needed = bytes + bytes / 64 + 64UL * 1024;  // with the file system's own records
   if (const std::uint64_t room = room_at(named_); room < needed) make_room_(needed - room);
 }
 
-void FileWriter::read(std::uint64_t at, std::span<std::byte> bytes) const {
+void DiskWriter::read(std::uint64_t at, std::span<std::byte> bytes) const {
   while (!bytes.empty()) {
     const ssize_t got =
         uninterrupted([&] { return ::pread(file_.number(), bytes.data(), bytes.size(), static_cast<off_t>(at)); });
@@ -55,8 +55,19 @@ void FileWriter::read(std::uint64_t at, std::span<std::byte> bytes) const {
   std::ranges::fill(bytes, std::byte{});
 }
 
-void FileWriter::set_size(std::uint64_t bytes) {
+void DiskWriter::set_size(std::uint64_t bytes) {
   if (uninterrupted([&] { return ::ftruncate(file_.number(), static_cast<off_t>(bytes)); }) != 0) refuse(named_, errno);
+}
+
+void MemoryWriter::write(std::uint64_t at, std::span<const std::byte> bytes) {
+  bytes_.resize(std::max<std::size_t>(bytes_.size(), at + bytes.size()));
+  std::ranges::copy(bytes, bytes_.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+void MemoryWriter::read(std::uint64_t at, std::span<std::byte> bytes) const {
+  const std::size_t there = std::min(bytes.size(), bytes_.size() - std::min<std::size_t>(at, bytes_.size()));
+  std::ranges::copy(std::span(bytes_).subspan(there > 0 ? at : 0, there), bytes.begin());
+  std::ranges::fill(bytes.subspan(there), std::byte{});
 }
 
 }  // namespace clatter::storage

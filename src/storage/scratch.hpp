@@ -38,7 +38,7 @@ class Region {
 class Scratch {
  public:
   static constexpr std::size_t most_in_memory = 344UL << 20U;  ///< bytes
-  static constexpr std::size_t most_resident = 96UL << 20U;   ///< bytes of pages of the files
+  static constexpr std::size_t most_resident = 96UL << 20U;    ///< bytes of pages of the files
   static constexpr std::size_t between_checks = 16UL << 20U;   ///< bytes of pages, of all threads
 
   /// `output` is the file that the results are for; nothing: all is held in memory.

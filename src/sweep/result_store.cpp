@@ -13,11 +13,16 @@ namespace {
 
 using observables::LogColumn, observables::LoggedImpact;
 
-/// Puts values at a place, and returns the place behind them.
+/// Puts a value, or several, at a place, and returns the place behind them.
 template <class T>
-requires std::is_trivially_copyable_v<T> std::byte* put(std::byte* place, std::span<const T> values) {
-  if (!values.empty()) std::memcpy(place, values.data(), values.size_bytes());
-  return place + values.size_bytes();
+requires std::is_trivially_copyable_v<T> std::byte* put(std::byte* place, const T& value) {
+  std::memcpy(place, &value, sizeof value);
+  return place + sizeof value;
+}
+template <class T>
+std::byte* put_all(std::byte* place, std::span<const T> values) {
+  for (const T& value : values) place = put(place, value);
+  return place;
 }
 
 template <class T>
@@ -145,22 +150,20 @@ void ResultStore::pack(std::size_t local_index, std::vector<std::byte>& to) cons
   const std::size_t before = to.size();
   to.resize(before + most_packed(local_index));
   std::byte* place = to.data() + before;
-  place = put<std::uint8_t>(place, status_->as<std::uint8_t>().subspan(local_index, 1));
-  place = put<std::int64_t>(place, impacts_->as<std::int64_t>().subspan(local_index, 1));
-  place = put<double>(place, periods_->as<double>().subspan(local_index, 1));
+  place = put(place, status_->as<std::uint8_t>()[local_index]);
+  place = put(place, impacts_->as<std::int64_t>()[local_index]);
+  place = put(place, periods_->as<double>()[local_index]);
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     if (outputs_[i].text) {
       const auto text = parts_of<char>(texts(i)[local_index]);
-      const auto length = static_cast<TextLength>(text.size());
-      place = put(put(place, std::span(&length, 1)), text);
+      place = put_all(put(place, static_cast<TextLength>(text.size())), text);
     } else {
-      place = put<double>(place, values(i, local_index));
+      place = put_all<double>(place, values(i, local_index));
     }
   }
   if (log_) {
     const auto log = parts_of<LoggedImpact>(logs()[local_index]);
-    const std::uint64_t count = log.size();
-    place = put(put(place, std::span(&count, 1)), log);
+    place = put_all(put(place, std::uint64_t{log.size()}), log);
   }
   to.resize(static_cast<std::size_t>(place - to.data()));
   scratch_->touched(pages_of_point_);

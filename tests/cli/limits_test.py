@@ -164,7 +164,7 @@ class Memory(Limits):
 
     def test_ulimit_v_and_d_are_seen_before_anything_runs(self):
         for limit, letter in ((resource.RLIMIT_AS, "v"), (resource.RLIMIT_DATA, "d")):
-            result = self.run_within(limit, 300 << 20, 10**7)
+            result = self.run_within(limit, 200 << 20, 10**7)
             self.assert_said(
                 result,
                 rf"not enough memory: 10000000 points take \S+ MiB, ulimit -{letter} leaves \S+ MiB; sweep fewer "
@@ -190,10 +190,10 @@ class Memory(Limits):
         self.assertEqual(set(codes), {0, 74})
 
     def test_a_merge_is_refused_in_the_same_form(self):
-        config = self.write("large.toml", NOTHING_OBSERVED.format(points=10**6))
+        config = self.write("large.toml", NOTHING_OBSERVED.format(points=4 * 10**6))
         for k in range(2):
             self.assertEqual(self.clatter("run", config, "-o", f"{k}.h5", "--shard", f"{k}/2").returncode, 0)
-        result = self.within(resource.RLIMIT_AS, 48 << 20, "merge", "-o", "whole.h5", "0.h5", "1.h5")
+        result = self.within(resource.RLIMIT_AS, 112 << 20, "merge", "-o", "whole.h5", "0.h5", "1.h5")
         self.assert_said(
             result, r"not enough memory: merging takes \S+ MiB, ulimit -v leaves \S+ MiB; sweep fewer points"
         )

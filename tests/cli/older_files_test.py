@@ -1,6 +1,6 @@
-"""Files of release 0.2.0, kept in tests/release_0.2.0: outputs are read, a journal and shards are refused with what to do.
+"""Files of release 0.2.0: outputs are read, a journal and shards are refused with what to do.
 
-Made by that release from small.toml and branch.toml beside them; README.md there says how.
+tests/release_0.2.0/README.md says how that release made them.
 """
 
 import shutil

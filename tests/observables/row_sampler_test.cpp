@@ -171,17 +171,18 @@ TEST(RowSampler, transforms_differ_from_exact_harmonics_by_what_is_aliased) {
     support::Random random(7, index);
     point::Problem scene = paper_scene(random.uniform(0.2, 1), random.uniform(0.5, 0.9), random.uniform(0.5, 1.5));
     scene.oscillator.damping = random.logarithmic(0.03, 0.8), scene.oscillator.load = random.uniform(-0.3, 0.3);
-    const auto [x, v] = transform.samples(*workspace);
+    const auto rows = transform.samples(*workspace);
     std::optional<RowSampler> samples;
     std::optional<ExactHarmonics> exact;
     ImpactLog::Observer log;
     motion::State<double> end;
     const double total = observe(scene, [&](double length, auto run) {
-      samples.emplace(x, v, length / count, scene.stops), exact.emplace(highest, 2 * std::numbers::pi / length);
+      samples.emplace(rows[0], rows[1], length / count, scene.stops),
+          exact.emplace(highest, 2 * std::numbers::pi / length);
       end = run(*samples, *exact, log);
       samples->finish(end.x, end.v, length, true), exact->finish(end.x, length);
     });
-    if (!(std::abs(end.x - x[0]) < 1e-9) || log.impacts().empty()) continue;
+    if (!(std::abs(end.x - rows[0][0]) < 1e-9) || log.impacts().empty()) continue;
     ++periodic;
     double jumps = 0;
     for (const LoggedImpact& impact : log.impacts()) jumps += std::abs(impact.after - impact.before);

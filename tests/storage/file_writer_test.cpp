@@ -8,15 +8,14 @@
 #include <vector>
 
 #include "storage/error.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace clatter::storage {
 namespace {
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-TEST(FileWriter, writes_and_reads_anywhere) {
-  const Descriptor memory = memory_file();
-  FileWriter file(memory, "a file");
+void check_writing_and_reading(FileWriter& file) {
   const std::string text(3 * written_at_once + 1, 'x');
   file.write(10, bytes_of(text));
   file.write(2, bytes_of("yz"));
@@ -28,11 +27,22 @@ TEST(FileWriter, writes_and_reads_anywhere) {
   EXPECT_EQ(read, std::string(2, '\0') + 'y' + std::string(read.size() - 3, '\0'));
 }
 
+TEST(FileWriter, writes_and_reads_anywhere) {
+  MemoryWriter in_memory;
+  check_writing_and_reading(in_memory);
+  EXPECT_EQ(in_memory.take().size(), 3U);
+  const support::TemporaryDirectory directory;
+  const Descriptor file{::open(directory.path("a").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)};
+  DiskWriter on_disk(file, "a file");
+  check_writing_and_reading(on_disk);
+  EXPECT_EQ(directory.content("a").size(), 3U);
+}
+
 /// The room that a writer asks for if its disk is full and so many bytes are still expected.
 std::vector<std::uint64_t> asked_of_full_disk(std::uint64_t expected, std::string& message) {
   const Descriptor full{::open("/dev/full", O_RDWR | O_CLOEXEC)};
   std::vector<std::uint64_t> asked;
-  FileWriter file(full, "/dev/full", [&](std::uint64_t bytes) { asked.push_back(bytes); });
+  DiskWriter file(full, "/dev/full", [&](std::uint64_t bytes) { asked.push_back(bytes); });
   file.expect(expected);
   try {
     file.write(0, bytes_of("some"));
