@@ -71,6 +71,7 @@ std::span<const PointVariable> point_variables() { return all_point_variables; }
 results::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<PointAccuracy>& points) {
   results::Dataset dataset;
   add_axes(sweep, dataset);
+  collect(dataset);
   add_trials(dataset, points.front().rows);
   const std::vector<std::string> axes = axis_names(sweep);
   std::vector<std::string> over_rows = axes;
