@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -54,7 +55,7 @@ class Scratch {
 
   /// Lets go of resident pages of the files once they are many. Call it when a thread has touched so many more pages.
   void touched(std::size_t pages) const {
-    if (is_in_files_) count(pages);
+    if (is_in_files_.load(std::memory_order_relaxed)) count(pages);
   }
 
  private:
@@ -63,7 +64,7 @@ class Scratch {
 
   std::optional<std::filesystem::path> output_;
   std::size_t left_in_memory_;
-  bool is_in_files_ = false;
+  std::atomic<bool> is_in_files_ = false;
   std::mutex mutex_;
   std::shared_ptr<MappedPages> pages_;
 };
