@@ -16,11 +16,11 @@ by_name=(packages report)
 # ThreadSanitizer runs only those in which threads meet.
 threads='attractors\.(Basins|Ensemble|Tracked|Settling)|sweep\.(Run|SavedRun|Shard)|lanes\.(Of/)?(LaneBits|LanePoints)|plan\.Plan'
 asan_tests="^(lanes|branches|storage|config|results|observables)\.|^($threads)\.|^cli\.(hostile_files|readers|shards|streams)_test$"
-tsan_tests="^($threads)\.|^cli\.(shards|streams)_test$"
+tsan_tests="^($threads|results\.DatasetFile)\.|^cli\.(shards|streams)_test$"
 asan_targets=(
   clatter lanes_tests attractors_tests branches_tests storage_tests config_tests results_tests observables_tests sweep_tests plan_tests
 )
-tsan_targets=(clatter lanes_tests attractors_tests sweep_tests plan_tests)
+tsan_targets=(clatter results_tests lanes_tests attractors_tests sweep_tests plan_tests)
 
 steps() {
   cat <<END
@@ -43,8 +43,8 @@ packages, runs each gate, names those that fail, and exits with 1 if any does:
                 program when its files are hostile, read by others, split into
                 shards, piped (build/asan)
   tsan          ThreadSanitizer finds nothing in the tests of lanes, attractors,
-                plans and sweeps on several threads, nor in the program's shards
-                and pipes (build/tsan)
+                files of results, plans and sweeps on several threads, nor in
+                the program's shards and pipes (build/tsan)
   packages      only by name: tarball and Debian package are right
                 (scripts/check_packages.sh --help says more)
   report        only by name: pages of scripts/report.py in headless Chromium,

@@ -68,9 +68,9 @@ struct Harmonics {
     return static_cast<std::size_t>(settings.harmonics) + 1;
   }
 
-  /// The transform's rows of samples of x and v, and of their sums.
-  [[nodiscard]] static double values_held(const Settings& settings) {
-    return from_samples(settings) ? 4 * static_cast<double>(settings.harmonics_samples) : 0.0;
+  /// Each point's rows of samples of x and v, and of their sums; the factors of the transform are common to all.
+  [[nodiscard]] static double values_held(const Settings& settings, int points) {
+    return from_samples(settings) ? (4 * points + 1) * static_cast<double>(settings.harmonics_samples) : 0.0;
   }
   /// The transform and a thread's memory for it, if samples are taken. Throws std::bad_alloc.
   [[nodiscard]] static FourierScratch scratch_for(const Settings& settings);

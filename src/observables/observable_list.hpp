@@ -30,8 +30,9 @@ bool lanes_observe(const typename O::Settings& settings, const ObservedSpan& spa
 }
 
 template <class O>
-double values_held(const typename O::Settings& settings) {
-  if constexpr (requires { O::values_held(settings); }) return O::wanted(settings) ? O::values_held(settings) : 0.0;
+double values_held(const typename O::Settings& settings, int points) {
+  if constexpr (requires { O::values_held(settings, points); })
+    return O::wanted(settings) ? O::values_held(settings, points) : 0.0;
   return 0.0;
 }
 
@@ -89,9 +90,9 @@ struct ObservableList {
     return all;
   }
 
-  /// Numbers that the observers of a point hold meanwhile, at most.
-  [[nodiscard]] static double values_held(const Settings& settings) {
-    return (detail::values_held<Os>(settings) + ...);
+  /// Numbers that the observers of so many points hold meanwhile, at most.
+  [[nodiscard]] static double values_held(const Settings& settings, int points) {
+    return (detail::values_held<Os>(settings, points) + ...);
   }
 
   /// Whether SIMD lanes can observe all that is asked for, over a span whose turns and kind are known.

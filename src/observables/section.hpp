@@ -43,8 +43,8 @@ struct Section {
     return "section of " + std::to_string(settings.section) + " states";
   }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings);
-  [[nodiscard]] static double values_held(const Settings& settings) {
-    return (settings.loose_section ? 4 : 2) * static_cast<double>(settings.section);
+  [[nodiscard]] static double values_held(const Settings& settings, int points) {
+    return points * (settings.loose_section ? 4 : 2) * static_cast<double>(settings.section);
   }
   /// Lanes report their states at the forcing phase of the start, and follow no motion beyond the observed time.
   [[nodiscard]] static bool in_lanes(const Settings& settings, const ObservedSpan& span);

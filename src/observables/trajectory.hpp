@@ -54,8 +54,8 @@ struct Trajectory {
   [[nodiscard]] static std::size_t count_of(const Settings& settings) {
     return static_cast<std::size_t>(settings.trajectory);
   }
-  [[nodiscard]] static double values_held(const Settings& settings) {
-    return (settings.loose_trajectory ? 5 : 3) * static_cast<double>(settings.trajectory);
+  [[nodiscard]] static double values_held(const Settings& settings, int points) {
+    return points * (settings.loose_trajectory ? 5 : 3) * static_cast<double>(settings.trajectory);
   }
 
   class Observer;  ///< in trajectory_observer.hpp

@@ -96,7 +96,7 @@ void add_sizes(ShardSet& set) {
   const sweep::Sweep& sweep = set.config.sweep;
   double impacts = 0.0;
   for (const results::ShardHeader& header : set.headers) impacts += static_cast<double>(header.impacts);
-  set.bytes = plan::merge_bytes(sweep, set.headers.size(), impacts);
+  set.bytes = plan::merge_bytes(sweep, set.headers.size(), impacts, set.config.compression);
   set.output_bytes = plan::memory_need(sweep, std::nullopt, 1, impacts).output;
 }
 

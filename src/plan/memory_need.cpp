@@ -28,8 +28,10 @@ constexpr double logged_head = sizeof(std::uint64_t);
 constexpr double logged_impact = sizeof(observables::LoggedImpact);
 constexpr double files_resident = storage::Scratch::most_resident + storage::Scratch::between_checks;
 
-/// While a file is written: pages that aren't yet full, a block of values, and what deflates it.
-constexpr double of_writing = 1.5 * kibi * kibi, of_texts = 32 * kibi * kibi, of_deflating = 2.5 * kibi * kibi;
+/// While a file is written: pages that aren't yet full, values that are made and those that are written meanwhile,
+/// blocks of texts, and what deflates values.
+constexpr double of_pages = kibi * kibi, of_values = 2 * results::made_at_once, of_texts = 32 * kibi * kibi,
+                 of_deflating = 2.5 * kibi * kibi;
 
 /// Sizes of everything that a run holds value by value, and of its files, in bytes.
 struct Parts {
@@ -60,7 +62,7 @@ struct Parts {
     return columns + kept - in_files() + std::min(in_files(), files_resident) + numbered;
   }
   [[nodiscard]] double writing(int level) const {
-    return of_writing + std::min(texts, of_texts) + (level > 0 ? of_deflating : 0.0);
+    return std::min(output(), of_pages) + std::min(texts, of_texts) + (level > 0 ? of_deflating : 0.0);
   }
 };
 
@@ -182,9 +184,9 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::S
   const Parts parts = parts_of(sweep, shard, impacts);
   const double bits = 2 * parts.chains / 8;  // of the chains' states
   const double working =
-      std::max(threads * value * observables::All::values_held(sweep.problem.observe), saving_bytes(sweep, parts));
+      std::max(value * observables::All::values_held(sweep.problem.observe, threads), saving_bytes(sweep, parts));
   const double numbering = parts.motions + std::max(parts.motions, parts.numbers);
-  const double writing = parts.numbers + parts.writing(1);
+  const double writing = parts.numbers + parts.writing(1) + std::min(parts.output(), of_values);
   return {
       .output = parts.output(),
       .memory = before_bytes(parts, threads) + bits + parts.in_memory() +
@@ -196,7 +198,7 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::S
       .merging = merge_bytes(sweep, shard ? shard->of : 1, shard ? impacts * static_cast<double>(shard->of) : impacts)};
 }
 
-double merge_bytes(const sweep::Sweep& sweep, std::size_t shards, double impacts) {
+double merge_bytes(const sweep::Sweep& sweep, std::size_t shards, double impacts, int level) {
   const Parts parts = parts_of(sweep, std::nullopt, impacts);
   double of_point = value;  // of the variable that has most
   for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.problem))
@@ -204,10 +206,11 @@ double merge_bytes(const sweep::Sweep& sweep, std::size_t shards, double impacts
   constexpr double of_open_file = 0.64 * kibi * kibi;
   const double open = of_open_file * static_cast<double>(std::min(shards, results::most_open_shards));
   const double most = sweep::joined_at_once;
-  const double block = 2 * std::min(most, of_point * parts.points),
+  constexpr double blocks = 3.3;  // one is read, one gathered, one being written, and gaps lie between
+  const double block = blocks * std::min(most, of_point * parts.points),
                log = (1 + 1 / static_cast<double>(shards)) * std::min(most, value * impacts);
   const double numbering = parts.numbered + parts.motions + std::max(parts.motions, parts.numbers);
-  return before_bytes(parts, 0) + open + std::max(numbering, parts.numbers + block + log + parts.writing(1));
+  return before_bytes(parts, 0) + open + std::max(numbering, parts.numbers + block + log + parts.writing(level));
 }
 
 double expected_impacts(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard) {

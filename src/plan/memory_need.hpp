@@ -16,7 +16,7 @@ struct MemoryNeed {
   double in_files = 0.0;  ///< results that don't go into memory: in files beside the output until that is written
   double journal = 0.0;   ///< the journal, if the run isn't over within a second
   double logged = 0.0;    ///< the impact log's part of `output`, an estimate
-  double merging = 0.0;   ///< memory in which shards of this size are merged into the whole sweep
+  double merging = 0.0;   ///< memory in which shards of this size are merged into the whole sweep, at most
 
   /// The most that a run takes of its disk: its journal and, for a while, its results twice.
   [[nodiscard]] double disk() const { return output + in_files + journal; }
@@ -30,8 +30,9 @@ struct MemoryNeed {
 [[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard, int threads,
                                      double impacts);
 
-/// Bytes of memory that merging so many shards of a sweep takes, with so many impacts in all logs.
-[[nodiscard]] double merge_bytes(const sweep::Sweep& sweep, std::size_t shards, double impacts);
+/// Bytes of memory that merging so many shards of a sweep takes, with so many impacts in all logs, and deflated at this
+/// level.
+[[nodiscard]] double merge_bytes(const sweep::Sweep& sweep, std::size_t shards, double impacts, int level = 1);
 
 /// An estimate of the impacts in the log of a sweep or a shard, from short runs of a few of its points.
 [[nodiscard]] double expected_impacts(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard);

@@ -20,6 +20,9 @@ using ValueArray = std::variant<std::vector<double>, std::vector<std::uint8_t>, 
 /// the variable is written, so that they are never all in memory.
 using NextValues = std::function<ValueArray(std::size_t count)>;
 
+/// Bytes of such values that are best made at a time, unless their variable says otherwise.
+inline constexpr std::size_t made_at_once = 1UL << 20U;
+
 using Attribute = std::pair<std::string, std::variant<std::string, double, std::vector<std::uint8_t>>>;
 
 /// A named array of results. A variable that has the name of its only dimension is that dimension's coordinate.
@@ -32,6 +35,7 @@ struct Variable {
   std::vector<Attribute> attributes{};  ///< besides long_name and units, e.g. flag_values; the writer adds _FillValue
   std::string missing_if{};             ///< when a value is NaN or an empty text, in words for the help; not in files
   NextValues next{};                    ///< gives the values instead; empty: `values` has them
+  std::size_t at_once = made_at_once;   ///< bytes of those
 };
 
 /// The names of all variables of texts, in files of any command; the others hold numbers.

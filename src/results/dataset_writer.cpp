@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <future>
 #include <limits>
 #include <map>
 #include <new>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 #include "results/checksum_trailer.hpp"
 #include "results/dataset_file.hpp"
@@ -75,7 +77,8 @@ Handle text_transfer(std::size_t bytes) {
   return properties;
 }
 
-/// The values of a variable, from the first to the last, whether they are in memory or made meanwhile.
+/// The values of a variable, from the first to the last, whether they are in memory or made meanwhile. A piece stays
+/// until the one after the next is asked for.
 template <typename Value>
 class Pieces {
  public:
@@ -87,15 +90,17 @@ class Pieces {
       left_ = left_.subspan(count);
       return piece;
     }
+    before_ = std::exchange(made_, {});
     made_ = std::get<std::vector<Value>>(variable_.next(count));
     if (made_.size() != count) throw std::logic_error{variable_.name + ": values don't fill its dimensions"};
     return made_;
   }
+  [[nodiscard]] std::size_t at_once() const { return variable_.at_once / sizeof(Value); }
 
  private:
   const Variable& variable_;
   std::span<const Value> left_;
-  std::vector<Value> made_;
+  std::vector<Value> made_, before_;
 };
 
 /// Writes a deflated variable chunk by chunk, in their order, since another one would make another file; texts
@@ -120,7 +125,7 @@ void write_values(hid_t dataset, const Shape& shape, Pieces<std::string>& texts,
 }
 
 /// HDF5 would write a part of an array that isn't deflated only after filling all of it. So it gives a large one its
-/// place, and the values are put there without it.
+/// place, and the values are put there without it, each piece while the next one is made.
 template <typename Value>
 void write_values(hid_t dataset, const Shape& shape, Pieces<Value>& values, bool is_deflated,
                   detail::FileInPages& file) {
@@ -136,10 +141,14 @@ void write_values(hid_t dataset, const Shape& shape, Pieces<Value>& values, bool
   if (count > 0) checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes));
   if (!is_placed) return;
   std::uint64_t at = H5Dget_offset(dataset);
+  std::future<void> written;  // by a thread of its own, or here if none can be started
   for (std::size_t left = count, some = 0; left > 0; left -= some, at += some * sizeof(Value)) {
-    some = std::min(left, detail::largest_block / sizeof(Value));
-    file.write(at, std::as_bytes(values.next(some)));
+    some = std::min(left, values.at_once());
+    const auto piece = std::as_bytes(values.next(some));
+    if (written.valid()) written.get();
+    written = std::async([&file, at, piece] { file.write(at, piece); });
   }
+  if (written.valid()) written.get();
   file.rethrow();
 }
 

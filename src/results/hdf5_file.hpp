@@ -45,7 +45,7 @@ class FileInPages {
 
  private:
   static constexpr std::size_t page_size = storage::written_at_once;
-  static constexpr std::size_t most_pages = 512;
+  static constexpr std::size_t most_pages = 16;
   using Page = std::array<std::byte, page_size>;
 
   [[nodiscard]] Page& page(std::uint64_t number);

@@ -52,10 +52,12 @@ class Blocks {
   virtual ~Blocks() = default;
 
   std::vector<T> next(std::size_t count) {
+    if (at_ == block_.size()) refill();
+    if (at_ == 0 && block_.size() == count) return std::exchange(block_, {});
     std::vector<T> values;
     values.reserve(count);
     while (values.size() < count) {
-      if (at_ == block_.size()) block_.clear(), at_ = 0, fill(block_);
+      if (at_ == block_.size()) refill();
       if (block_.empty()) break;
       const std::size_t some = std::min(count - values.size(), block_.size() - at_);
       const auto from = block_.begin() + static_cast<std::ptrdiff_t>(at_);
@@ -68,6 +70,7 @@ class Blocks {
  private:
   /// Fills an empty block with the values that come next; leaves it empty after the last one.
   virtual void fill(std::vector<T>& block) = 0;
+  void refill() { block_.clear(), at_ = 0, fill(block_); }
 
   std::vector<T> block_;
   std::size_t at_ = 0;
@@ -95,8 +98,7 @@ class Rows : public Blocks<T> {
       read.push_back(first == last ? std::vector<T>() : rows_of<T>(*parts_, part, name_, first, last - first, width_));
     }
     block.resize((end - begin) * width_);
-    constexpr std::size_t cached =
-        1UL << 18U;  // bytes that are put together at a time: the parts alternate in each line
+    constexpr std::size_t cached = 1UL << 18U;  // bytes that are put together at a time, since the parts alternate
     const std::size_t some = std::max<std::size_t>(1, cached / (bytes * width_));
     for (std::size_t from = begin; from < end; from += some)
       for (std::size_t part = 0; part < read.size(); ++part)
@@ -281,7 +283,7 @@ Joined joined(const Sweep& sweep, const std::vector<Part>& parts, int threads) {
   std::size_t logged = 0;
   for (const Part& part : parts) logged += part.rows("impact_tau").value_or(0);
   const auto values = [&sweep, all](std::string_view variable) { return values_of(sweep, all, std::string(variable)); };
-  return {result_dataset(sweep, {}, {values, logged}, numbering_of(sweep, all, threads)), statuses};
+  return {result_dataset(sweep, {}, {values, logged, joined_at_once}, numbering_of(sweep, all, threads)), statuses};
 }
 
 }  // namespace clatter::sweep

@@ -15,7 +15,7 @@
 namespace clatter::sweep {
 
 /// Bytes of the values of a variable that are read from the parts before they are passed on.
-inline constexpr std::size_t joined_at_once = 32UL << 20U;
+inline constexpr std::size_t joined_at_once = 16UL << 20U;
 
 /// The results of a shard, which are read part by part; any of these calls may throw.
 struct Part {

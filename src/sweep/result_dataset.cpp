@@ -1,5 +1,6 @@
 #include "sweep/result_dataset.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <type_traits>
@@ -45,7 +46,7 @@ class Maker {
   results::Variable& add(const std::string& name, std::vector<std::string> dimensions, std::string long_name,
                          std::string units = "1") {
     results::Variable variable{name, std::move(dimensions), std::vector<T>(), std::move(long_name), std::move(units)};
-    variable.next = values_.of(name);
+    variable.next = values_.of(name), variable.at_once = values_.at_once;
     return dataset_.variables.emplace_back(std::move(variable));
   }
 
@@ -93,6 +94,8 @@ class Maker {
     const bool is_on_ground = output.intermediate && sweep_.problem.observe.loose_attractor;  // as it is computed
     const bool is_framed = output.frame != observables::FrameOf::any;
     name_frame(sweep_, is_on_ground && is_framed ? observables::FrameOf::absolute : output.frame, variable);
+    const std::size_t of_point = output.width() * sizeof(double);
+    variable.at_once = std::max<std::size_t>(1, values_.at_once / of_point) * of_point;  // whole points
     if (!output.observable.empty()) name_observable(output.observable, variable);
     variable.missing_if = output.missing_if.empty() ? "the point failed" : "the point failed, or ";
     variable.missing_if += output.missing_if;

@@ -17,6 +17,7 @@ struct ResultValues {
   /// Gives those of a variable, by its name.
   std::function<results::NextValues(std::string_view variable)> of;
   std::size_t logged = 0;  ///< impacts in the log of all points
+  std::size_t at_once = results::made_at_once;
 };
 
 /// The dataset over the sweep's axes, or over the points of a shard, with its coordinates; `numbering` has the motions

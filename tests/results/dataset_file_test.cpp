@@ -243,10 +243,11 @@ TEST_F(DatasetFile, a_file_that_makes_the_library_crash_is_refused) {
   EXPECT_NE(why.find("it makes the HDF5 library"), std::string::npos) << why;
 }
 
-/// The same dataset, whose values are made while it is written.
-Dataset made_meanwhile(const Dataset& dataset) {
+/// The same dataset, whose values are made while it is written, so many bytes at a time.
+Dataset made_meanwhile(const Dataset& dataset, std::size_t at_once = made_at_once) {
   Dataset made = dataset;
-  for (Variable& variable : made.variables)
+  for (Variable& variable : made.variables) {
+    variable.at_once = at_once;
     std::visit(
         [&variable]<class T>(std::vector<T>& held) {
           variable.next = [values = std::move(held), at = std::ptrdiff_t{0}](std::size_t count) mutable {
@@ -257,6 +258,7 @@ Dataset made_meanwhile(const Dataset& dataset) {
           held.clear();
         },
         variable.values);
+  }
   return made;
 }
 
@@ -286,8 +288,9 @@ TEST_F(DatasetFile, values_that_are_made_meanwhile_give_the_same_bytes) {
   for (const std::size_t points : {0UL, 20UL, 40'000UL})
     for (const int level : {0, 1}) {
       const Dataset dataset = every_type(points);
-      EXPECT_TRUE(file_image(made_meanwhile(dataset), head(level)) == file_image(dataset, head(level)))
-          << points << ' ' << level;
+      for (const std::size_t at_once : {made_at_once, 99'992UL, 1UL << 30U})
+        EXPECT_TRUE(file_image(made_meanwhile(dataset, at_once), head(level)) == file_image(dataset, head(level)))
+            << points << ' ' << level << ' ' << at_once;
     }
 }
 
@@ -307,6 +310,40 @@ TEST_F(DatasetFile, an_error_while_values_are_made_comes_out_of_it) {
   dataset = made_meanwhile(every_type(40'000));
   dataset.variables[4].next = [](std::size_t count) { return std::vector<double>(count - 1); };
   EXPECT_THROW(static_cast<void>(file_image(dataset, head())), std::logic_error);
+}
+
+/// A disk whose writes fail from one on.
+class FailingDisk final : public storage::FileWriter {
+ public:
+  explicit FailingDisk(int good) : good_(good) {}
+
+  void write(std::uint64_t at, std::span<const std::byte> bytes) override {
+    if (good_-- <= 0) throw storage::IoError("the disk is full");
+    memory_.write(at, bytes);
+  }
+  void read(std::uint64_t at, std::span<std::byte> bytes) const override { memory_.read(at, bytes); }
+  void set_size(std::uint64_t bytes) override { memory_.set_size(bytes); }
+  [[nodiscard]] bool failed() const { return good_ < 0; }
+
+ private:
+  storage::MemoryWriter memory_;
+  int good_;
+};
+
+TEST_F(DatasetFile, an_error_of_the_disk_comes_out_of_it_whichever_write_it_meets) {
+  const Dataset dataset = every_type(40'000);
+  int good = 0;
+  for (; good < 1000; ++good) {
+    FailingDisk disk(good);
+    try {
+      write_file(disk, made_meanwhile(dataset, 99'992), head());
+      EXPECT_FALSE(disk.failed());
+      break;
+    } catch (const storage::IoError&) {
+      EXPECT_TRUE(disk.failed());
+    }
+  }
+  EXPECT_GT(good, 20);
 }
 
 }  // namespace
