@@ -3,14 +3,12 @@
 
 import argparse
 import math
-import os
 import pathlib
 import statistics
-import subprocess
-import sys
 import tempfile
 
 from readme_table import add_build, program
+from timed_process import timed
 
 OUT_OF_REACH = """[scene]
 f = -1.0
@@ -61,17 +59,6 @@ MOTIONS = {
 }
 
 
-def run_once(command):
-    """Processor time in seconds and largest resident memory in MB (1e6 bytes) of a process."""
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    errors = process.stderr.read()
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode != 0:
-        sys.exit(f"bench_growth.py: {' '.join(map(str, command))} fails:\n{errors.decode()}")
-    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024 / 1e6
-
-
 class Growth:
     """Runs of one or two programs, side by side."""
 
@@ -88,7 +75,7 @@ class Growth:
         runs = {one: [] for one in self.programs}
         for _ in range(times or self.repetitions):
             for one in self.programs:
-                runs[one].append(run_once([one, *words_of(one)]))
+                runs[one].append(timed(one, *words_of(one))[1:])
         return [tuple(statistics.median(values) for values in zip(*runs[one])) for one in self.programs]
 
     def run_words(self, text, *more):
@@ -112,7 +99,7 @@ class Growth:
             for number, one in enumerate(self.programs):
                 for k in range(of):
                     shard = self.folder / f"{number}.{k}.h5"
-                    run_once([one, "run", self.config(text), "-o", shard, "--force", "-q", "--shard", f"{k}/{of}"])
+                    timed(one, "run", self.config(text), "-o", shard, "--force", "-q", "--shard", f"{k}/{of}")
             names = {one: f"{number}.*.h5" for number, one in enumerate(self.programs)}
             yield of, self.measured(
                 lambda one: [

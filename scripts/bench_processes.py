@@ -6,12 +6,10 @@ import json
 import os
 import pathlib
 import statistics
-import subprocess
-import sys
 import tempfile
-import time
 
 from readme_table import SOURCE, add_build, program
+from timed_process import timed
 
 CONFIGS = SOURCE / "configs"
 FIGURES = [CONFIGS / f"fig{number:02d}.toml" for number in range(2, 24)]
@@ -54,26 +52,14 @@ attractor = {str(numbered).lower()}
 """
 
 
-def run_once(command, environment):
-    """Wall time in seconds and largest resident memory in MB (1e6 bytes) of a process."""
-    begin = time.perf_counter()
-    process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    errors = process.stderr.read()
-    _, status, usage = os.wait4(process.pid, 0)
-    seconds = time.perf_counter() - begin
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode not in (0, 1):  # 1: some points failed
-        sys.exit(f"bench_processes.py: {' '.join(map(str, command))} fails:\n{errors.decode()}")
-    return seconds, usage.ru_maxrss * 1024 / 1e6
-
-
 def measured(name, commands, repetitions, environment):
     """The commands one after the other, again and again: medians of their time together and of the largest memory."""
     seconds, megabytes = [], []
     while len(seconds) < repetitions and sum(seconds) < ENOUGH_SECONDS:
-        runs = [run_once(command, environment) for command in commands]
-        seconds.append(sum(run[0] for run in runs))
-        megabytes.append(max(run[1] for run in runs))
+        # exit code 1: some points failed
+        runs = [timed(*command, permitted=(0, 1), environment=environment) for command in commands]
+        seconds.append(sum(run.wall for run in runs))
+        megabytes.append(max(run.memory for run in runs))
     return {
         "name": name,
         "seconds": statistics.median(seconds),

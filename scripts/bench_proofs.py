@@ -3,14 +3,13 @@
 
 import argparse
 import json
-import os
 import pathlib
 import statistics
 import subprocess
-import sys
 import tempfile
 
 from readme_table import SOURCE, add_build, program
+from timed_process import timed
 
 CONFIGS = ("fig23", "regimes")
 ENOUGH_SECONDS = 60  # after which a measurement is not repeated
@@ -18,13 +17,7 @@ ENOUGH_SECONDS = 60  # after which a measurement is not repeated
 
 def processor_time(*command):
     """Seconds that a process computes, on all cores together."""
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    errors = process.stderr.read()
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode not in (0, 1, 3):  # 1 and 3: some points failed, or aren't proved
-        sys.exit(f"bench_proofs.py: {' '.join(map(str, command))} fails:\n{errors.decode()}")
-    return usage.ru_utime + usage.ru_stime
+    return timed(*command, permitted=(0, 1, 3)).processor  # 1 and 3: some points failed, or aren't proved
 
 
 def median_time(repetitions, *command):

@@ -12,22 +12,10 @@ import time
 import unittest
 
 from command_line import CLATTER, LONGEST, SANITIZED
-from small_disk import small_disk
-from stopped_runs import StoppedRuns
-
-SHIM = os.environ.get("CLATTER_FAULTS")
+from faulty_calls import FaultyCalls, needs_shim
 
 
-class Faults(StoppedRuns):
-    def setUp(self):
-        super().setUp()
-        self.sweep(nu=40, xs=25)
-        self.whole = self.undisturbed()
-        self.marker = self.directory.with_suffix(".happened")
-        self.shim = self.directory.with_suffix(".so")  # in LD_PRELOAD a blank ends a path
-        self.shim.symlink_to(SHIM or "none")
-        self.addCleanup(self.shim.unlink)
-
+class Faults(FaultyCalls):
     def begin_anew(self, journal=None):
         for path in self.directory.iterdir():
             if path != self.config:
@@ -120,17 +108,17 @@ class Faults(StoppedRuns):
     def hidden(self):
         return [name for name in self.files() if name.startswith(".")]
 
-    @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
+    @needs_shim
     def test_each_call_of_a_run_that_resumes_and_publishes_may_fail_or_be_the_last(self):
         calls = ("open", "read", "write", "ftruncate", "fsync", "linkat", "rename", "unlink")
         self.assertGreater(self.check_each_call(calls, ("kill", "EIO"), (), self.most()), 20)
 
-    @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
+    @needs_shim
     def test_each_call_of_a_run_that_saves_may_fail_or_be_the_last(self):
         words = self.stop_on_its_way()
         self.assertGreater(self.check_each_call(("open", "write", "fdatasync"), ("kill", "ENOSPC"), words, None), 5)
 
-    @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
+    @needs_shim
     def test_interrupted_and_short_calls_are_repeated(self):
         journal = self.most()
         interrupted = [(call, "EINTR") for call in ("open", "read", "write", "ftruncate", "fsync")]
@@ -142,7 +130,7 @@ class Faults(StoppedRuns):
                 self.assertEqual(result.returncode, 0, (call, effect, result.stderr))
                 self.assertEqual(self.output.read_bytes(), self.whole, (call, effect))
 
-    @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
+    @needs_shim
     def test_a_signal_while_the_output_is_written_stops_nothing(self):
         for call in ("write", "fsync", "rename"):
             for n in range(1, 100):
@@ -187,9 +175,6 @@ class Faults(StoppedRuns):
                     self.assertTrue(self.journal.read_bytes().startswith(journal), context)
                 self.assert_completes(context)
         self.assertGreater(refused, sizes)
-
-    def small_disk(self, kibibytes):
-        return small_disk(self.directory.with_suffix(".disk"), kibibytes)
 
     def test_a_small_disk_that_is_really_full_loses_nothing(self):
         needed = len(self.whole) // 1024
@@ -322,52 +307,6 @@ class Faults(StoppedRuns):
             r"not enough disk space: the results take \S+ TiB beside '\S+a\.h5', \S+ [GT]iB are free there; free some",
         )
         self.assertEqual(self.files(), ["a.toml"])
-
-    def test_a_merge_on_a_full_disk_leaves_the_shards_and_no_output(self):
-        for number in range(2):
-            self.assertEqual(
-                self.run_command("--shard", f"{number}/2", output=self.directory / f"{number}.h5").returncode, 0
-            )
-        before = self.files()
-        command = [CLATTER, "merge", "-o", self.output, self.directory / "0.h5", self.directory / "1.h5"]
-        for size in (0, 1000, len(self.whole) - 1):
-            result = subprocess.run(
-                command,
-                capture_output=True,
-                text=True,
-                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
-            )
-            self.assertEqual(result.returncode, 74)
-            self.assertEqual(self.files(), before)
-        with self.small_disk(len(self.whole) // 2048) as disk:
-            result = subprocess.run([*command[:3], disk / "a.h5", *command[4:]], capture_output=True, text=True)
-            self.assertEqual(result.returncode, 74)
-            self.assertRegex(result.stderr, r"not enough disk space: the merged file takes \S+ KiB beside '\S+', ")
-            self.assertEqual(list(disk.iterdir()), [])
-        self.assertEqual(subprocess.run(command, capture_output=True).returncode, 0)
-        self.assertEqual(self.output.read_bytes(), self.whole)
-
-    @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
-    def test_a_merge_that_is_killed_leaves_the_shards_and_nothing_else(self):
-        for number in range(2):
-            self.run_command("--shard", f"{number}/2", output=self.directory / f"{number}.h5")
-        before = self.files()
-        command = [CLATTER, "merge", "-o", self.output, self.directory / "0.h5", self.directory / "1.h5"]
-        killed = 0
-        for call in ("write", "ftruncate", "fsync", "linkat"):
-            for n in (1, 2, 5):
-                faults = {"LD_PRELOAD": str(self.shim), "CLATTER_FAULT": f"{call} {n} kill"}
-                result = subprocess.run(command, capture_output=True, env={**os.environ, **faults})
-                if result.returncode == 0:
-                    self.output.unlink()
-                    continue
-                killed += 1
-                self.assertEqual(result.returncode, -signal.SIGKILL)
-                if self.output.exists():  # it was killed while the folder was synced
-                    self.assertEqual(self.output.read_bytes(), self.whole)
-                    self.output.unlink()
-                self.assertEqual(self.files(), before)
-        self.assertGreater(killed, 5)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ FOR_USERS = (
 FOR_SOURCES = (
     *("README.md", "bench*", "check*.sh", "clang_syntax.py", "Containerfile", "effects_ladder.py", "fuzz.sh"),
     *("gallery.sh", "hard_cases.py", "long_checks.sh", "manual*", "packages.sh", "pyproject.toml", "readme_table.py"),
-    *("regress.*", "reproduce.sh", "slurm/check.sh", "tarball.sh", "test.sh"),
+    *("regress.*", "reproduce.sh", "slurm/check.sh", "tarball.sh", "test.sh", "timed_process.py"),
 )
 
 

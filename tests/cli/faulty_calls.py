@@ -1,0 +1,25 @@
+"""Shared by the tests of failing calls and full disks: a sweep, its bytes, and the library that makes calls fail."""
+
+import os
+import unittest
+
+from small_disk import small_disk
+from stopped_runs import StoppedRuns
+
+SHIM = os.environ.get("CLATTER_FAULTS")
+
+needs_shim = unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
+
+
+class FaultyCalls(StoppedRuns):
+    def setUp(self):
+        super().setUp()
+        self.sweep(nu=40, xs=25)
+        self.whole = self.undisturbed()
+        self.marker = self.directory.with_suffix(".happened")
+        self.shim = self.directory.with_suffix(".so")  # in LD_PRELOAD a blank ends a path
+        self.shim.symlink_to(SHIM or "none")
+        self.addCleanup(self.shim.unlink)
+
+    def small_disk(self, kibibytes):
+        return small_disk(self.directory.with_suffix(".disk"), kibibytes)
