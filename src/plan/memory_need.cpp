@@ -205,7 +205,7 @@ double merge_bytes(const sweep::Sweep& sweep, std::size_t shards, double impacts
     of_point = std::max(of_point, output.text ? text_in_file : static_cast<double>(output.width()) * value);
   constexpr double of_open_file = 0.64 * kibi * kibi;
   const double open = of_open_file * static_cast<double>(std::min(shards, results::most_open_shards));
-  const double most = sweep::joined_at_once;
+  const double most = std::max<double>(sweep::joined_at_once, of_point);
   constexpr double blocks = 3.3;  // one is read, one gathered, one being written, and gaps lie between
   const double block = blocks * std::min(most, of_point * parts.points),
                log = (1 + 1 / static_cast<double>(shards)) * std::min(most, value * impacts);

@@ -1,6 +1,5 @@
 #include "sweep/result_dataset.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <type_traits>
@@ -95,7 +94,7 @@ class Maker {
     const bool is_framed = output.frame != observables::FrameOf::any;
     name_frame(sweep_, is_on_ground && is_framed ? observables::FrameOf::absolute : output.frame, variable);
     const std::size_t of_point = output.width() * sizeof(double);
-    variable.at_once = std::max<std::size_t>(1, values_.at_once / of_point) * of_point;  // whole points
+    if (of_point <= variable.at_once) variable.at_once -= variable.at_once % of_point;  // whole points
     if (!output.observable.empty()) name_observable(output.observable, variable);
     variable.missing_if = output.missing_if.empty() ? "the point failed" : "the point failed, or ";
     variable.missing_if += output.missing_if;
