@@ -38,7 +38,7 @@ install $(dpkg-query -W -f '${Recommends}' clatter | tr -d ,)
 clatter-plot fig22.h5 || fail "clatter-plot doesn't draw Fig. 22"
 [[ -s fig22.svg && -s fig22.png ]] || fail "clatter-plot made no fig22.svg and fig22.png"
 clatter-report fig22.h5 -o page.html || fail "clatter-report makes no page of Fig. 22"
-grep -q '"histories"' page.html || fail "the page has no motion: $(grep -o "The motion wasn't computed[^<]*" page.html)"
+grep -q '"histories"' page.html || fail "the page has no motion: $(grep -o 'The motion was[^<]*' page.html)"
 
 apt-get purge -q -y clatter >/root/log 2>&1 || fail "$(cat /root/log)"
 left=$(find /usr -name '*clatter*')
