@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "certificates/certificate_text.hpp"
@@ -46,7 +47,8 @@ void require_exact(const sweep::Sweep& sweep, const std::string& path) {
 CertifiedFile::CertifiedFile(const std::string& path, const std::vector<Place>& where) {
   const results::FileSummary summary = outputs::read_summary(path);
   TableChoice choice{.only = {"status"}, .where = where};
-  if (has(summary, "status") && has(summary, "period_ratio")) choice.only.emplace_back("period_ratio");
+  for (const char* const compared : {"period_ratio", "impact_word"})
+    if (has(summary, compared)) choice.only.emplace_back(compared);
   const CsvTable table(summary, path, choice);
   sweep_ = outputs::config_of_output(summary, path).sweep;
   require_exact(sweep_, path);
@@ -58,16 +60,19 @@ CertifiedFile::CertifiedFile(const std::string& path, const std::vector<Place>& 
                             "run its configuration again");
 }
 
-/// Whether a point has the status of the file, a graze being told where stability is, and the period.
+/// Whether a point has the status, the period and the word of the file. A certificate looks for grazes, a run does only
+/// if derivatives are asked for.
 bool CertifiedFile::is_reproduced(std::size_t point, const certificates::CertifiedPoint& found) const {
-  const auto without_graze = [](steady::Status status) {
-    return status == steady::Status::grazing ? steady::Status::periodic : status;
-  };
-  const auto told = static_cast<steady::Status>((*results::values_of<std::uint8_t>(results_, "status"))[point]);
-  if (without_graze(told) != without_graze(found.status)) return false;
+  using steady::Status;
+  const observables::Observe& observe = sweep_.problem.observe;
+  const bool tells_grazes = observe.stability || !observe.sensitivity.empty();
+  const auto told = static_cast<Status>((*results::values_of<std::uint8_t>(results_, "status"))[point]);
+  const bool is_untold = found.status == Status::grazing && told == Status::periodic && !tells_grazes;
+  if (told != found.status && !is_untold) return false;
   const auto* const periods = results::values_of<double>(results_, "period_ratio");
-  return periods == nullptr || !found.certificate || !found.certificate->period || !((*periods)[point] > 0) ||
-         (*periods)[point] == found.periods;
+  if (periods != nullptr && (*periods)[point] > 0 && (*periods)[point] != found.periods) return false;
+  const auto* const words = results::values_of<std::string>(results_, "impact_word");
+  return words == nullptr || observe.word_sticks || (*words)[point].empty() || (*words)[point] == found.word;
 }
 
 certificates::Tally CertifiedFile::certify(const std::vector<std::size_t>& points,

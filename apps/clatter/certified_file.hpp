@@ -29,7 +29,7 @@ class CertifiedFile {
   [[nodiscard]] bool is_reproduced(std::size_t point, const certificates::CertifiedPoint& found) const;
 
   sweep::Sweep sweep_;
-  results::Dataset results_{};  ///< status and, if the file has it, period_ratio
+  results::Dataset results_{};  ///< status and, if the file has them, period_ratio and impact_word
   std::vector<std::size_t> points_{};
 };
 

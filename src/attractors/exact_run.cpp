@@ -7,6 +7,7 @@
 
 #include "observables/multipliers.hpp"
 #include "point/exact_motion.hpp"
+#include "steady/contact_at_section.hpp"
 #include "steady/contraction.hpp"
 
 namespace clatter::attractors {
@@ -19,16 +20,19 @@ class Repeats {
  public:
   Repeats(const point::Problem& problem)
       : has_loose_mass_(has_loose_mass(problem.loose)),
+        beyond_contact_(problem, period_of(problem.oscillator)),
         of_mass_(problem.time.tolerance),
         of_both_(problem.time.tolerance) {}
 
-  [[nodiscard]] std::size_t add(const SectionState& state, double log_area) {
-    if (has_loose_mass_) return of_both_.add(state.x, {state.v, state.z, state.w}, log_area);
-    return of_mass_.add(state.x, state.v, log_area);
+  [[nodiscard]] std::size_t add(const SectionState& state, double log_area, const steady::Passage& passage) {
+    const auto [x, v, z, w] = beyond_contact_({state.x, state.v, state.z, state.w});
+    if (has_loose_mass_) return of_both_.add(x, {v, z, w}, log_area, {passage.size, passage.loose_size});
+    return of_mass_.add(x, v, log_area, passage.size);
   }
 
  private:
   bool has_loose_mass_;
+  steady::BeyondContact beyond_contact_;
   steady::RepeatFinder of_mass_;
   steady::BasicRepeatFinder<3> of_both_;
 };
@@ -90,10 +94,15 @@ std::optional<Round> run_round(const point::Problem& problem, std::size_t period
   point::MotionRecorder recorder(motion->stops());
   recorder.keep_events();
   if (has_loose_mass(problem.loose)) recorder.loose.emplace(problem.oscillator, problem.loose);
-  auto orbit = steady::orbit_from(motion->start(), periods, recorder.watch, [&](motion::State<double>& state) {
+  motion::State<double> start = motion->start();
+  if (sections.empty() && motion->begin_cycle(start) != stepping::Outcome::completed) return std::nullopt;
+  auto orbit = steady::orbit_from(start, periods, recorder.watch, [&](motion::State<double>& state) {
     const std::int64_t period = state.periods;
     if (!sections.empty()) state = sections[static_cast<std::size_t>(period)], state.periods = period;
-    return motion->advance_to_section(state, 0, recorder);
+    const stepping::Outcome outcome = motion->advance_to_section(state, 0, recorder);
+    const bool ends =
+        outcome == stepping::Outcome::completed && sections.empty() && period + 1 == static_cast<std::int64_t>(periods);
+    return ends ? motion->end_cycle(state, 0, recorder) : outcome;
   });
   if (!orbit) return std::nullopt;
   std::ranges::copy(sections, orbit->states.begin());
@@ -145,7 +154,7 @@ std::optional<Sections> run_sections(const point::Problem& problem, std::size_t 
     const double log_area = recorder.watch.passage().log_area - 2 * problem.oscillator.damping * motion->period();
     sections.log_area += log_area;
     sections.states.push_back(section_of(problem, state));
-    sections.repeats_after = repeat.add(sections.states.back(), log_area);
+    sections.repeats_after = repeat.add(sections.states.back(), log_area, recorder.watch.passage());
   }
   return sections;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "certificates/certificate.hpp"
@@ -26,6 +27,7 @@ enum class Without : std::uint8_t {
 struct CertifiedPoint {
   steady::Status status = steady::Status::unresolved;
   double periods = 0.0;  ///< of periodic motion, in those of the force
+  std::string word{};    ///< of periodic motion
   point::End end{};      ///< from which the next point of a branch starts
   Without without = Without::status;
   std::optional<Certificate> certificate{};

@@ -111,10 +111,14 @@ void BlockScheduler<E>::handle_sections(Block<Task>& block) {
 template <Effects E>
 void BlockScheduler<E>::handle_section(Block<SettleTask<E>>& block, std::size_t lane) {
   LaneView view = block.view(lane);
-  auto settled = block.tasks[lane]->pass_section(view);
-  if (!settled) return;
-  leave(block, lane);
-  finish(std::move(*settled));
+  SettleTask<E>& task = *block.tasks[lane];
+  auto settled = task.pass_section(view);
+  if (settled) {
+    leave(block, lane);
+    finish(std::move(*settled));
+  } else if (task.leaves_lane()) {
+    hand_over(block, lane);
+  }
 }
 
 template <Effects E>
@@ -132,8 +136,13 @@ void BlockScheduler<E>::fall_back(Block<SettleTask<E>>& block, std::size_t lane)
   LaneView view = block.view(lane);
   const stepping::Outcome outcome = task.fall_back(view);
   if (outcome != stepping::Outcome::completed) return fail(block, lane, outcome);
-  if (!task.leaves_lane()) return;
-  run_batch({&task.item(), 1}, scratch_,
+  if (task.leaves_lane()) hand_over(block, lane);
+}
+
+/// Leaves a point to the scalar loop alone, from its start on.
+template <Effects E>
+void BlockScheduler<E>::hand_over(Block<SettleTask<E>>& block, std::size_t lane) {
+  run_batch({&block.tasks[lane]->item(), 1}, scratch_,
             [this](const point::WorkItem& done, point::PointResult&& result) { put(done, std::move(result)); });
   leave(block, lane);
 }

@@ -54,6 +54,7 @@ class BlockScheduler {
   void handle_section(Block<ObserveTask<E>>& block, std::size_t lane);
   void fall_back(Block<SettleTask<E>>& block, std::size_t lane);
   void fall_back(Block<ObserveTask<E>>& block, std::size_t lane);
+  void hand_over(Block<SettleTask<E>>& block, std::size_t lane);
 
   void take_stock();
   template <class Task>

@@ -6,6 +6,7 @@
 
 #include "point/exact_points.hpp"
 #include "point/point_run.hpp"
+#include "steady/contact_at_section.hpp"
 
 namespace clatter::lanes {
 namespace {
@@ -26,6 +27,8 @@ bool lanes_can_observe(const SettledPoint<E>& settled) {
                                        .periodic = observed.status == steady::Status::periodic,
                                        .transient = observed.status == steady::Status::transient,
                                        .frame = observed_frame(problem)};
+  const steady::BeyondContact beyond_contact(problem, settled.loop.period());
+  if (span.periodic && beyond_contact.is_beside(observed.from.x, observed.from.v)) return false;  // see CycleEnds
   return !failed(observed.status) && observed.sections.empty() && observed.found_by != steady::FoundBy::closed_form &&
          observed.turns >= 1 && observables::All::in_lanes(problem.observe, span);
 }

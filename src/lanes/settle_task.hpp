@@ -28,8 +28,10 @@ class SettleTask {
 
   /// Advances the lane in the scalar loop: by two steps, or to the next section.
   [[nodiscard]] stepping::Outcome fall_back(LaneView& lane) { return fallback_.advance(lane); }
-  /// Whether the scalar loop alone would be quicker.
-  [[nodiscard]] bool leaves_lane() const { return fallback_.calls() > 64 + 2 * sections_; }
+  /// Whether the scalar loop alone would be quicker, or has to decide on which side of a section an impact falls.
+  [[nodiscard]] bool leaves_lane() const {
+    return fallback_.calls() > 64 + 2 * sections_ || (search_ && search_->is_cut());
+  }
 
   [[nodiscard]] bool has_spent_budget(const LaneView& lane) const;
   /// The share of its limits that the point has spent.

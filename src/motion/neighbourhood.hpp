@@ -44,6 +44,10 @@ class Neighbourhood {
 
   /// Whether the proof holds up to here; not while the mass is so near a stop that some of the motions may have met it.
   [[nodiscard]] bool holds() const { return holds_ && approached_ == Side::none; }
+  /// Whether it holds up to here in a motion that meets `next` next: then some may have met that already.
+  [[nodiscard]] bool holds_before(Side next) const {
+    return holds_ && (approached_ == Side::none || approached_ == next);
+  }
   /// The start, mapped by the derivative.
   [[nodiscard]] const Ellipse& first_order() const { return first_order_; }
   /// To be added to `first_order`.

@@ -56,6 +56,7 @@ class Stability::Observer {
   void impact(const motion::Impact& impact) {
     tangent_.impact(impact);
     if (graze_matters_) nearby_.impact(impact);
+    if (first_stop_ == Side::none) first_stop_ = impact.side;
     if (rough_) rough_->impact(impact);
   }
   void touch(const motion::Touch& touch) { tangent_.touch(touch); }
@@ -76,8 +77,8 @@ class Stability::Observer {
   /// motion by general methods isn't known to rounding. A graze of a soft stop changes little, and beside one those of
   /// a rigid stop aren't told. Under dry friction the least speeds and distances tell them.
   [[nodiscard]] bool grazes() const {
-    return !rests_ &&
-           ((graze_matters_ && !nearby_.holds()) || (rough_ && rough_->found()) || (walls_ && walls_->found()));
+    return !rests_ && ((graze_matters_ && !nearby_.holds_before(first_stop_)) || (rough_ && rough_->found()) ||
+                       (walls_ && walls_->found()));
   }
 
   /// Ends the observed time, one period. Unforced motion (`autonomous`) is periodic only when it loses nothing; a shift
@@ -143,6 +144,7 @@ class Stability::Observer {
   std::optional<motion::LooseTangent> loose_{};  ///< with a loose mass, in place of `tangent_`
   std::optional<WallGrazes> walls_{};            ///< of its walls, in place of `nearby_`; if the motion is periodic
   bool graze_matters_, rests_ = false;
+  Side first_stop_ = Side::none;  ///< of the first impact, which is that after the end of a period, too
   Complex first_{no_value, no_value}, second_{no_value, no_value};
   double exponent_ = no_value;
   double evaluations_ = 0.0;

@@ -9,6 +9,7 @@
 #include "point/every_effect.hpp"
 #include "point/exact_motion.hpp"
 #include "point/fixed_point.hpp"
+#include "steady/contact_at_section.hpp"
 #include "steady/repeat.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
@@ -119,6 +120,8 @@ ObservedTime Decisions::decided_by_release(const Problem& problem, ObservedTime 
 }
 
 ObservedTime Decisions::decided_by_fixed_point(const Problem& problem, ObservedTime found) {
+  const steady::BeyondContact beyond_contact(problem, period_of(problem.oscillator));
+  if (beyond_contact.is_beside(found.from.x, found.from.v)) return found;  // the map jumps there
   std::vector<Sections>& known = of(problem).orbits;
   found.simulated += found.turns;
   auto same = std::ranges::find_if(known, [&](Sections& orbit) {

@@ -95,6 +95,10 @@ class ExactMotion {
                                                              MotionRecorder& recorder) = 0;
   [[nodiscard]] virtual stepping::Outcome run_for(motion::State<double>& state, double turns,
                                                   MotionRecorder& recorder) = 0;
+  /// As `steady::CycleEnds` does.
+  [[nodiscard]] virtual stepping::Outcome begin_cycle(motion::State<double>& state) = 0;
+  [[nodiscard]] virtual stepping::Outcome end_cycle(motion::State<double>& state, std::int64_t origin,
+                                                    MotionRecorder& recorder) = 0;
 };
 
 }  // namespace clatter::point

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "point/exact_points.hpp"
@@ -36,9 +37,18 @@ class ExactMotionWith final : public ExactMotion {
     return stepping::run_for(exact_, state, turns, recorder);
   }
 
+  stepping::Outcome begin_cycle(motion::State<double>& state) override {
+    ends_.emplace(exact_, problem_, steady::uncertainty_of(problem_, state, problem_.time.tolerance));
+    return ends_->begin(state);
+  }
+  stepping::Outcome end_cycle(motion::State<double>& state, std::int64_t origin, MotionRecorder& recorder) override {
+    return ends_->end(state, origin, recorder);
+  }
+
  private:
   Problem problem_;
   stepping::Exact<double, E> exact_;
+  std::optional<steady::CycleEnds<stepping::Exact<double, E>>> ends_{};
 };
 
 template <Effects E>

@@ -8,6 +8,7 @@
 
 #include "observables/observers.hpp"
 #include "point/point.hpp"
+#include "steady/cycle_ends.hpp"
 #include "steady/find_steady.hpp"
 #include "steady/settling_periods.hpp"
 
@@ -72,7 +73,7 @@ class Point {
     if (problem_.observe.settling && problem_.oscillator.forcing != 0)
       result_.settling_periods =
           settling_periods(integrator_, start(), observed_, problem_.time, observables::Settling::settled,
-                           factor_of(problem_.units, Quantity::velocity), problem_.loose);
+                           factor_of(problem_.units, Quantity::velocity), problem_);
     const bool grazes = span_.periodic && problem_.oscillator.forcing != 0 && grazing_is_told(observers);
     return result_with(grazes ? steady::Status::grazing : observed_.status, observed_.turns + periods_beyond_);
   }
@@ -89,13 +90,24 @@ class Point {
     if (steady) observers.response(span_, state.x);
     stepping::Outcome outcome = stepping::Outcome::completed;
     if (observers.need_flights()) {
-      outcome = observed_.sections.empty() ? run_for(integrator_, state, observed_.turns, observers)
-                                           : run_by_sections(state, observed_.sections, observers);
+      outcome = span_.periodic ? observe_cycle(state, observers) : observe_flights(state, observers);
     } else {
       state.periods += static_cast<std::int64_t>(observed_.turns);
     }
     if (outcome == stepping::Outcome::completed) outcome = complete_section(observers, state);
     return end(observers, state, outcome);
+  }
+  stepping::Outcome observe_flights(motion::State<double>& state, Observers& observers) {
+    return observed_.sections.empty() ? run_for(integrator_, state, observed_.turns, observers)
+                                      : run_by_sections(state, observed_.sections, observers);
+  }
+  /// The flights of one period, which has an event at its beginning once.
+  stepping::Outcome observe_cycle(motion::State<double>& state, Observers& observers) {
+    steady::CycleEnds ends(integrator_, problem_, span_.uncertainty);
+    const std::int64_t origin = state.periods;
+    stepping::Outcome outcome = ends.begin(state);
+    if (outcome == stepping::Outcome::completed) outcome = observe_flights(state, observers);
+    return outcome == stepping::Outcome::completed ? ends.end(state, origin, observers) : outcome;
   }
   Observers begin() {
     describe_span();
@@ -122,10 +134,17 @@ class Point {
   }
   /// Replaces a state by the same one known better, unless double has already completed a chatter that goes on in more
   /// digits; false if they aren't the same.
-  [[nodiscard]] static bool take(const motion::State<double>& section, motion::State<double>& state) {
+  [[nodiscard]] bool take(const motion::State<double>& section, motion::State<double>& state) const {
     constexpr double same = 1e-6;
     const double size = std::max(std::abs(section.x), std::abs(section.v));
-    if (!(between(state, section).size() <= same * size)) return false;
+    const auto is_near = [&](double x, double v) {
+      return std::max(std::abs(state.x - x), std::abs(state.v - v)) <= same * size;
+    };
+    if (!is_near(section.x, section.v)) {  // perhaps since an impact falls on the section, which double has passed
+      const steady::SectionNumbers beyond =
+          steady::BeyondContact(problem_, integrator_.period())({section.x, section.v});
+      return is_near(beyond.x, beyond.v);
+    }
     if (state.chatters || state.v == 0) return true;
     const std::int64_t periods = state.periods;
     state = section, state.periods = periods;
@@ -168,11 +187,8 @@ class Point {
 
   /// How far displacements and velocities may be off: by rounding, and after a repeat by its tolerance.
   [[nodiscard]] double uncertainty() const {
-    double size = std::abs(observed_.from.x) + std::abs(observed_.from.v);
-    for (const double stop : {problem_.stops.lower, problem_.stops.upper, problem_.loose.lower, problem_.loose.upper})
-      if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
     const double tolerance = observed_.found_by == steady::FoundBy::repetition ? problem_.time.tolerance : 0.0;
-    return (64 * epsilon<double>() + tolerance) * size;
+    return steady::uncertainty_of(problem_, observed_.from, tolerance);
   }
 
   /// Keeps the place of a loose mass at the end.

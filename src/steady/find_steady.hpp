@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "steady/coasting.hpp"
+#include "steady/contact_at_section.hpp"
 #include "steady/doubt.hpp"
 #include "steady/forced_search.hpp"
 #include "steady/free_search.hpp"
@@ -22,13 +23,15 @@ template <stepping::Integrator I>
   PassageObserver watch(integrator.stops());
   RepeatFinder repeat(time.tolerance);
   Rests rests;
+  const BeyondContact beyond_contact(scene, integrator.period());
   std::array<motion::State<double>, RepeatFinder::longest> recent;
   for (std::int64_t section = 0;; ++section) {
     const auto settled = static_cast<double>(section);
     const double log_area = watch.passage().log_area - 2 * integrator.constants().h * integrator.period();
     recent[static_cast<std::size_t>(section % longest)] = state;
     if (section >= from) {
-      if (const std::size_t n = repeat.add(state.x, state.v, log_area)) {
+      const auto [x, v, z, w] = beyond_contact({state.x, state.v});
+      if (const std::size_t n = repeat.add(x, v, log_area, watch.passage().size)) {
         const auto chosen =
             section - static_cast<std::int64_t>(repeat.first_of_last(n, BeginsBefore(integrator.constants().f)));
         return repeated(recent[static_cast<std::size_t>(chosen % longest)], n, settled, section, rests);

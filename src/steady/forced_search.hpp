@@ -14,6 +14,7 @@
 #include "scene/displacement_bound.hpp"
 #include "scene/response.hpp"
 #include "steady/coasting.hpp"
+#include "steady/contact_at_section.hpp"
 #include "steady/doubt.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/stroboscopic_map.hpp"
@@ -41,6 +42,7 @@ class ForcedSearch {
         log_area_of_damping_(-2 * integrator.constants().h * integrator.period()),
         repeat_(time.tolerance, in_lanes_ ? 4 : 1),
         begins_before_(scene.oscillator.forcing),
+        beyond_contact_(scene, integrator.period()),
         watch_(integrator.stops()),
         map_(integrator, time.tolerance) {
     near_enough_.fill(nearest_first);
@@ -79,6 +81,8 @@ class ForcedSearch {
     keep(passage), section_ += periods;
     if ((periods > 1) != samples_) samples_ = periods > 1, closing_in_ = 0, repeat_.restart();
   }
+  /// Lanes: whether a section has been within rounding of an impact. Lanes don't tell on which side of it they are.
+  [[nodiscard]] bool is_cut() const { return is_cut_; }
   /// Lanes: forcing periods from a section ahead to the next one to look at. Motion that hasn't settled for long is
   /// sampled, until it comes back to a sample, but for some time before each attempt by Newton's method.
   [[nodiscard]] std::int64_t periods_from(std::int64_t section) const {
@@ -123,12 +127,14 @@ class ForcedSearch {
   /// The forcing periods after which the motion repeats, 0 while it doesn't. In lanes the motion goes on until the
   /// states at the sections are as close as rounding allows, since no Newton step brings them there.
   [[nodiscard]] std::size_t repeats(const motion::State<double>& state) {
+    is_cut_ = is_cut_ || (in_lanes_ && section_ > 0 && beyond_contact_.is_beside(state.x, state.v));
     if (samples_) {
       if (repeat_.sample(state.x, state.v)) look_until_ = section_ + looked_at;
       return 0;
     }
     const double log_area = section_ > 0 ? passages_[index(1)].log_area + log_area_of_damping_ : 0.0;
-    const std::size_t n = repeat_.add(state.x, state.v, log_area);
+    const auto [x, v, z, w] = beyond_contact_({state.x, state.v});
+    const std::size_t n = repeat_.add(x, v, log_area);
     if (repeat_.confirms()) look_until_ = section_ + looked_at;
     if (!in_lanes_ || (n == 0 && closing_in_ == 0)) return n;
     if (closing_in_ == 0) closing_in_ = n, closest_ = std::numeric_limits<double>::infinity();
@@ -290,6 +296,8 @@ class ForcedSearch {
   std::int64_t closest_at_ = 0;  ///< the section at which it was
   RepeatFinder repeat_;
   BeginsBefore begins_before_;
+  BeyondContact beyond_contact_;
+  bool is_cut_ = false;                   ///< lanes: a section lies beside an impact
   std::array<Passage, kept> passages_{};  ///< [section modulo kept]: the period from it; before the start no contact
   std::size_t next_ = 0;                  ///< index of the approach's next section
   std::optional<MapOrbit> approach_;      ///< the periods that the last attempt followed

@@ -8,6 +8,7 @@
 
 #include "motion/walls.hpp"
 #include "scene/displacement_bound.hpp"
+#include "steady/contact_at_section.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/passage_observer.hpp"
 #include "steady/repeat.hpp"
@@ -46,14 +47,17 @@ template <stepping::Integrator I>
   PassageObserver watch(integrator.stops());
   BasicRepeatFinder<3> repeat(time.tolerance);
   std::array<motion::State<double>, RepeatFinder::longest> recent;
+  const BeyondContact beyond_contact(scene, integrator.period());
   const SineCosine<double> phase = integrator.phase(motion::State<double>{});
   for (std::int64_t section = 0;; ++section) {
     const auto settled = static_cast<double>(section);
     const double log_volume = watch.passage().log_area - 2 * integrator.constants().h * integrator.period();
     recent[static_cast<std::size_t>(section % longest)] = state;
     if (section >= from) {
-      const auto [z, w] = motion::place_in_housing(state, scene.loose);
-      if (const std::size_t n = repeat.add(state.x, {state.v, z, w}, log_volume)) {
+      const auto place = motion::place_in_housing(state, scene.loose);
+      const auto [x, v, z, w] = beyond_contact({state.x, state.v, place.z, place.w});
+      if (const std::size_t n =
+              repeat.add(x, {v, z, w}, log_volume, {watch.passage().size, watch.passage().loose_size})) {
         const auto chosen =
             section - static_cast<std::int64_t>(repeat.first_of_last(n, BeginsBefore(scene.oscillator.forcing)));
         ObservedTime found{Status::periodic, recent[static_cast<std::size_t>(chosen % longest)], static_cast<double>(n),

@@ -16,6 +16,8 @@ struct Passage {
   double log_area = 0.0;        ///< logarithm of the factor by which its stops shrink areas of states; -inf: a rest
                                 ///< or a stick
   Side rested_on = Side::none;  ///< the stop that held the mass last
+  double size = 0.0;            ///< the largest displacement or speed at an event
+  double loose_size = 0.0;      ///< the same of a loose mass in its housing
 
   /// Whether they have the same contacts; the time in contact with a damped stop may differ, and the area with it.
   friend bool operator==(const Passage& a, const Passage& b) { return a.itinerary == b.itinerary; }

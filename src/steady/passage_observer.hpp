@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -34,6 +35,7 @@ class PassageObserver {
   void rest(const motion::Rest& rest) {
     add(rest.is_stick() ? 13 : rest.side == Side::upper ? 4 : 3);
     if (rest.held) passage_.rested_on = rest.side;
+    see(rest.position, 0.0);
     passage_.log_area = -std::numeric_limits<double>::infinity();
     if (differentiates_) tangent_.rest(rest);
   }
@@ -41,6 +43,7 @@ class PassageObserver {
     const bool upper = impact.side == Side::upper;
     add(upper ? 2 : 1);
     passage_.log_area += upper ? log_upper_ : log_lower_;
+    see(impact.position, impact.before);
     if (differentiates_) tangent_.impact(impact);
   }
 
@@ -48,6 +51,8 @@ class PassageObserver {
   void strike(const motion::Strike& strike) {
     add(strike.side == Side::upper ? 2 : 1);
     passage_.log_area += 2 * std::log(std::abs(strike.after / strike.before));
+    see(strike.place, strike.v_before);
+    passage_.loose_size = std::max({passage_.loose_size, std::abs(strike.wall), std::abs(strike.before)});
   }
   void press(const motion::Press& press) {
     add(press.side == Side::upper ? 4 : 3);
@@ -57,11 +62,13 @@ class PassageObserver {
   void reversal(const motion::Reversal& reversal) {
     add(14);
     passage_.log_area += std::log(reversal.after / reversal.before);
+    see(reversal.position, 0.0);
     if (differentiates_) tangent_.reversal(reversal);
   }
 
   void touch(const motion::Touch& touch) {
     add((touch.from_outside ? 5 : 7) + (touch.side == Side::upper));
+    see(touch.position, touch.velocity);
     if (differentiates_) tangent_.touch(touch);
   }
   void separate(const motion::Separation& separation) { add(separation.side == Side::upper ? 10 : 9); }
@@ -85,6 +92,7 @@ class PassageObserver {
   [[nodiscard]] static constexpr std::uint64_t with(std::uint64_t itinerary, std::uint64_t event) {
     return (itinerary + event) * 0x9e3779b97f4a7c15u;
   }
+  void see(double x, double v) { passage_.size = std::max({passage_.size, std::abs(x), std::abs(v)}); }
   void add(std::uint64_t event) { passage_.itinerary = with(passage_.itinerary, event); }
 
   Stops stops_;

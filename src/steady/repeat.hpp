@@ -37,14 +37,16 @@ class BeginsBefore {
 
 /// Finds the number of forcing periods after which a motion repeats, from its states at the sections (the stroboscopic
 /// sections of `motion::State`): a displacement and one other number, its velocity, or with a loose mass three, the
-/// velocity, and the place of the loose mass in its housing with z'. Each pair is compared by its own size. A repeat
-/// counts once the whole rest of the transient is below the tolerance, not just the part that n periods remove, which
-/// is small if motion contracts slowly. It must also hold for another n periods: motion that forgets its past on a
-/// stop, and is chaotic after it, returns to a state to rounding and then diverges.
+/// velocity, and the place of the loose mass in its housing with z'. Each pair is compared by the size of its motion:
+/// the larger of its numbers and, if they are given, of those at the events of a period, since a mass may stand near 0
+/// at each section. A repeat counts once the whole rest of the transient is below the tolerance, not just the part that
+/// n periods remove, which is small if motion contracts slowly. It must also hold for another n periods: motion that
+/// forgets its past on a stop, and is chaotic after it, returns to a state to rounding and then diverges.
 template <std::size_t others>
 class BasicRepeatFinder {
  public:
-  using Others = std::array<double, others>;  ///< of a state, without its displacement
+  using Others = std::array<double, others>;           ///< of a state, without its displacement
+  using Sizes = std::array<double, (others + 1) / 2>;  ///< of the motion of each pair
 
   static constexpr std::size_t longest = 64;         ///< forcing periods of the longest motion looked for
   static constexpr double divisor_tolerances = 100;  ///< a divisor counts as the period within so many
@@ -55,11 +57,11 @@ class BasicRepeatFinder {
 
   /// Takes the next section's state, and the logarithm of the factor by which the period before it changed a small area
   /// (with more numbers, volume) of states; returns the n after which the motion repeats, 0 while it doesn't.
-  [[nodiscard]] std::size_t add(double x, double v, double log_area) requires(others == 1) {
-    return add(x, Others{v}, log_area);
+  [[nodiscard]] std::size_t add(double x, double v, double log_area, double size = 0) requires(others == 1) {
+    return add(x, Others{v}, log_area, Sizes{size});
   }
-  [[nodiscard]] std::size_t add(double x, const Others& other, double log_area) {
-    const std::size_t now = keep(x, other, log_area);
+  [[nodiscard]] std::size_t add(double x, const Others& other, double log_area, const Sizes& sizes = {}) {
+    const std::size_t now = keep(x, other, log_area, sizes);
     if (candidate_ > 0 && !repeats(now, candidate_, divisor_tolerances * tolerance_)) candidate_ = 0;
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
     if (candidate_ > 0 || ++waited_ < looks_every_) return 0;
@@ -77,7 +79,7 @@ class BasicRepeatFinder {
   /// Takes a later section's state, sections having been left out before it; returns whether it is that of one of the
   /// last `longest` states taken.
   [[nodiscard]] bool sample(double x, double v) requires(others == 1) {
-    keep(x, Others{v}, 0);
+    keep(x, Others{v}, 0, {});
     return next_within(tolerance_, 1) > 0;
   }
 
@@ -91,7 +93,7 @@ class BasicRepeatFinder {
   /// other; 0 for none.
   [[nodiscard]] std::size_t next_within(double distance, std::size_t n) const {
     const std::size_t now = size_ - 1, last = std::min(longest, now);
-    const double x = x_[now], limit = distance * std::max(std::abs(x), std::abs(v_at(now)));
+    const double x = x_[now], limit = distance * size(now, last, 0);
     std::int64_t near = 0;  // as wide as double, and without branches, so that compilers use vectors
     for (std::size_t i = now - last; i + n <= now; ++i) near = std::abs(x - x_[i]) <= limit ? std::int64_t{1} : near;
     if (near == 0) return 0;
@@ -126,9 +128,10 @@ class BasicRepeatFinder {
   static constexpr std::ptrdiff_t kept = 2 * longest;  // two rounds of the longest motion
 
   /// Keeps a state; returns its index.
-  std::size_t keep(double x, const Others& other, double log_area) {
+  std::size_t keep(double x, const Others& other, double log_area, const Sizes& sizes) {
     if (size_ == capacity) forget();
-    x_[size_] = x, others_[size_] = {other, log_area};
+    x_[size_] = x, others_[size_] = {other, log_area, sizes};
+    has_sizes_ = has_sizes_ || sizes != Sizes{};
     return size_++;
   }
   void forget() {
@@ -139,27 +142,33 @@ class BasicRepeatFinder {
 
   /// Whether the states at `now` and n sections before are the same, to a tolerance.
   [[nodiscard]] bool repeats(std::size_t now, std::size_t n, double tolerance) const {
-    const double limit = tolerance * std::max(std::abs(x_[now]), std::abs(v_at(now)));
+    const double limit = tolerance * size(now, n, 0);
     bool same = std::abs(x_[now] - x_[now - n]) <= limit && std::abs(v_at(now) - v_at(now - n)) <= limit;
-    for (std::size_t i = 1; i + 1 < others; i += 2) same = same && change(now, n, i) <= tolerance * size(now, i);
+    for (std::size_t i = 1; i + 1 < others; i += 2) same = same && change(now, n, i) <= tolerance * size(now, n, i + 1);
     return same;
   }
   [[nodiscard]] double v_at(std::size_t i) const { return others_[i].other[0]; }
-  /// The larger change over n sections of the i-th of the other numbers and the next one, and their size.
+  /// The larger change over n sections of the i-th of the other numbers and the next one.
   [[nodiscard]] double change(std::size_t now, std::size_t n, std::size_t i) const {
     const Others &a = others_[now].other, &b = others_[now - n].other;
     return std::max(std::abs(a[i] - b[i]), std::abs(a[i + 1] - b[i + 1]));
   }
-  [[nodiscard]] double size(std::size_t now, std::size_t i) const {
-    return std::max(std::abs(others_[now].other[i]), std::abs(others_[now].other[i + 1]));
+  /// The size of the motion of the pair that begins with the i-th number of a state, over the last n periods.
+  [[nodiscard]] double size(std::size_t now, std::size_t n, std::size_t i) const {
+    const double place = i == 0 ? x_[now] : others_[now].other[i - 1];
+    double size = std::max(std::abs(place), std::abs(others_[now].other[i]));
+    if (!has_sizes_) return size;
+    for (std::size_t section = now - n; section < now; ++section)
+      size = std::max(size, others_[section + 1].sizes[i / 2]);
+    return size;
   }
 
-  /// Distance of the states at `now` and m sections before, over the larger of |x|, |v|; of the two pairs the larger.
+  /// Distance of the states at `now` and m sections before, over the size of the motion; of the two pairs the larger.
   [[nodiscard]] double distance(std::size_t now, std::size_t m) const {
     const double difference = std::max(std::abs(x_[now] - x_[now - m]), std::abs(v_at(now) - v_at(now - m)));
-    double largest = difference / std::max(std::abs(x_[now]), std::abs(v_at(now)));
+    double largest = difference / size(now, m, 0);
     for (std::size_t i = 1; i + 1 < others; i += 2)
-      if (const double other = change(now, m, i) / size(now, i); other > largest) largest = other;
+      if (const double other = change(now, m, i) / size(now, m, i + 1); other > largest) largest = other;
     return largest;
   }
 
@@ -234,10 +243,12 @@ class BasicRepeatFinder {
   double closest_ = 0.0;                         ///< its least distance
   std::uint64_t falling_ = 0;                    ///< a bit for each divisor whose distance has only fallen since
   std::size_t size_ = 0;
+  bool has_sizes_ = false;  ///< of the motion
   /// Of a section: the other numbers of its state, and the area's factor of the period before it.
   struct OthersAndArea {
     Others other;
     double log_area;
+    Sizes sizes;  ///< at the events of the period before it
   };
   std::array<double, capacity> x_;  ///< the first `size_` are set; apart from the others, since they are compared first
   std::array<OthersAndArea, capacity> others_;

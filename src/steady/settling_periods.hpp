@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "motion/walls.hpp"
+#include "steady/contact_at_section.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/passage_observer.hpp"
 #include "steady/time_settings.hpp"
@@ -21,7 +22,7 @@ namespace clatter::steady {
 template <stepping::Integrator I>
 [[nodiscard]] double settling_periods(I integrator, motion::State<double> start, const ObservedTime& found,
                                       const TimeSettings& time, double distance, double velocity,
-                                      const LooseMass& loose) {
+                                      const Scene& scene) {
   constexpr double never = std::numeric_limits<double>::quiet_NaN();
   if (!(found.status == Status::periodic || found.status == Status::grazing) || !std::isfinite(found.settling))
     return never;
@@ -37,18 +38,23 @@ template <stepping::Integrator I>
     cycle.push_back(next);
   }
   const auto period = static_cast<std::int64_t>(cycle.size());
+  const BeyondContact beyond_contact(scene, integrator.period());
+  const auto numbers_of = [&](const motion::State<double>& state) -> SectionNumbers {
+    if constexpr (I::effects.loose) {
+      const auto [z, w] = motion::place_in_housing(state, scene.loose);
+      return beyond_contact({state.x, state.v, z, w});
+    }
+    return beyond_contact({state.x, state.v});
+  };
   const auto is_near = [&](const motion::State<double>& state) {
     const std::int64_t ahead = (state.periods - found.from.periods) % period;
-    const motion::State<double>& steady = cycle[static_cast<std::size_t>(ahead < 0 ? ahead + period : ahead)];
-    const double limit = distance * std::max(std::abs(steady.x), velocity * std::abs(steady.v));
-    const bool is_main_near = std::abs(state.x - steady.x) <= limit && velocity * std::abs(state.v - steady.v) <= limit;
-    if constexpr (I::effects.loose) {
-      const auto [z, w] = motion::place_in_housing(state, loose);
-      const auto [steady_z, steady_w] = motion::place_in_housing(steady, loose);
-      const double most = distance * std::max(std::abs(steady_z), velocity * std::abs(steady_w));
-      return is_main_near && std::abs(z - steady_z) <= most && velocity * std::abs(w - steady_w) <= most;
-    }
-    return is_main_near;
+    const SectionNumbers steady = numbers_of(cycle[static_cast<std::size_t>(ahead < 0 ? ahead + period : ahead)]);
+    const auto [x, v, z, w] = numbers_of(state);
+    const auto are_near = [&](double place, double speed, double steady_place, double steady_speed) {
+      const double most = distance * std::max(std::abs(steady_place), velocity * std::abs(steady_speed));
+      return std::abs(place - steady_place) <= most && velocity * std::abs(speed - steady_speed) <= most;
+    };
+    return are_near(x, v, steady.x, steady.v) && (!I::effects.loose || are_near(z, w, steady.z, steady.w));
   };
   const auto last =
       static_cast<std::int64_t>(std::min(std::ceil(found.settling), static_cast<double>(time.max_periods)));

@@ -1,0 +1,123 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "steady/contact_at_section.hpp"
+#include "stepping/integrator.hpp"
+
+namespace clatter::steady {
+
+/// The instant of the first event that a motion comes to.
+class FirstEvent {
+ public:
+  template <class A>
+  void arc(const A&, double, double) {}
+  template <class A>
+  void in_housing(const A&, double, double) {}
+  template <class A>
+  void hold(const A&, const motion::Rest&) {}
+  void rest(const motion::Rest& rest) { see(rest.time); }
+  void impact(const motion::Impact& impact) { see(impact.time); }
+  void touch(const motion::Touch& touch) { see(touch.time); }
+  void separate(const motion::Separation& separation) { see(separation.time); }
+  void reversal(const motion::Reversal& reversal) { see(reversal.time); }
+  void strike(const motion::Strike& strike) { see(strike.time); }
+  void press(const motion::Press& press) { see(press.time); }
+
+  [[nodiscard]] const std::optional<double>& time() const { return time_; }  ///< tau
+
+ private:
+  void see(double time) {
+    if (!time_) time_ = time;
+  }
+
+  std::optional<double> time_{};
+};
+
+/// How far displacements and velocities of a motion may be off, by rounding and by the tolerance of its repeat.
+[[nodiscard]] inline double uncertainty_of(const Scene& scene, const motion::State<double>& at, double tolerance) {
+  double size = std::abs(at.x) + std::abs(at.v);
+  for (const double stop : {scene.stops.lower, scene.stops.upper, scene.loose.lower, scene.loose.upper})
+    if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
+  return (64 * epsilon<double>() + tolerance) * size;
+}
+
+/// Makes one period of a motion begin and end on the same side of an event that falls on the section. Rounding may
+/// find that just after the beginning and just before the end as well, or at neither, and the period would have it
+/// twice, or not at all. A period that begins just before an event begins after it instead, and ends after it, too;
+/// else it ends where it has begun, before or after.
+template <stepping::Integrator I>
+class CycleEnds {
+  using State = motion::State<typename I::Number>;
+
+ public:
+  /// `uncertainty`: of displacements and velocities.
+  CycleEnds(I& integrator, const Scene& scene, double uncertainty)
+      : integrator_(integrator), scene_(scene), uncertainty_(uncertainty) {}
+
+  /// Moves the state in which a period begins past the events that are ahead of it by no more than rounding.
+  [[nodiscard]] stepping::Outcome begin(State& state) {
+    stepping::NoObserver nobody;
+    within_ = within(state);
+    return pass(state, within_, state.periods, nobody);
+  }
+  /// Runs on from the end of the period through those events, if they are still ahead.
+  template <class Observer>
+  [[nodiscard]] stepping::Outcome end(State& state, std::int64_t origin, Observer& observer) {
+    const auto phase_turns = state.phase_turns;
+    const stepping::Outcome outcome = pass(state, has_passed_ ? 2 * within_ : within_ / 2, origin, observer);
+    state.phase_turns = phase_turns;
+    return outcome;
+  }
+
+ private:
+  static constexpr int most_events = 4;  ///< at one instant
+
+  /// The distance of the nearest stop, or of a loose mass from its nearest wall, and the speed relative to it.
+  struct Approach {
+    double gap, speed;
+  };
+  [[nodiscard]] Approach approach(const State& state) const {
+    const auto gap = [](double x, const auto& of) { return std::min(std::abs(x - of.lower), std::abs(x - of.upper)); };
+    if (!has_loose_mass(scene_.loose)) return {gap(state.x, integrator_.stops()), std::abs(state.v)};
+    const auto [z, w] = motion::place_in_housing(state, scene_.loose);
+    return {gap(z, scene_.loose), std::abs(w)};
+  }
+  /// How long a state is within rounding of an event, tau.
+  [[nodiscard]] double within(const State& state) const {
+    return std::min(same_instant * integrator_.period(), 4 * uncertainty_ / approach(state).speed);
+  }
+  /// Whether there may be an event so soon. A mass that stands, or is pressed, begins no new one.
+  [[nodiscard]] bool may_meet(const State& state, double soon) const {
+    const auto [gap, speed] = approach(state);
+    if (speed == 0 || state.chatters || state.loose.pressed) return false;
+    const bool nearly_stands = integrator_.is_rough() && speed <= 4 * uncertainty_;
+    return nearly_stands || state.within != Side::none || gap <= 2 * soon * speed;
+  }
+  template <class Observer>
+  [[nodiscard]] stepping::Outcome pass(State& state, double soon, std::int64_t origin, Observer& observer) {
+    for (int events = 0; events < most_events && may_meet(state, soon); ++events) {
+      FirstEvent first;
+      State ahead = state;
+      I trial = integrator_;
+      const double now = state.phase_turns, T = integrator_.period();
+      stepping::Outcome outcome = trial.advance(ahead, now + soon / T, state.periods, first);
+      if (outcome != stepping::Outcome::completed || !first.time()) return outcome;
+      has_passed_ = true;
+      outcome = integrator_.advance(state, std::max(now, *first.time() / T) + 4 * epsilon<double>(), origin, observer);
+      if (outcome != stepping::Outcome::completed) return outcome;
+    }
+    return stepping::Outcome::completed;
+  }
+
+  I& integrator_;
+  const Scene& scene_;
+  double uncertainty_;
+  double within_ = 0.0;      ///< tau
+  bool has_passed_ = false;  ///< an event, at the beginning
+};
+
+}  // namespace clatter::steady
