@@ -21,6 +21,9 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   disks        a sweep on disks that are full at COUNT sizes                   (default 100; about 1 s each)
   combinations COUNT random scenes of all effects together, each written in several ways, by the program,
                and branches, followed sweeps and starts of a tenth of them (default 3000; about 0.2 s each)
+  coincidences COUNT random scenes in which events fall together, and in which they don't: starts on a contact and
+               between, keys at zero and at 1e-9, branches begun again from each of their set, scenes and machines
+               (default 2000; about 0.5 s each)
   sensitivity  derivatives by keys of COUNT random scenes, and as many with a loose mass: what units demand of them,
                and differences of runs (default 3000; about 40 ms each)
   releases     the periods and impacts of COUNT scenes that rest now and then, in 60 digits
@@ -47,6 +50,7 @@ case "${1-}" in
   kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=1000 ;;
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;
   combinations) filter=combinations_test.Combinations count=3000 ;;
+  coincidences) filter=coincidences_test count=2000 ;;
   sensitivity) count=3000
     filter='sensitivity_relations_test.OfRandomScenes loose_mass_sensitivity_test.OfRandomScenes' ;;
   releases) filter=releases_test.Releases.test_random_rests_are_told_as_60_digits_tell_them count=300 ;;
@@ -64,9 +68,10 @@ count=${2-$count}
 [[ $count =~ ^[1-9][0-9]*$ ]] || { echo "long_checks.sh: COUNT is a whole number above 0, not '$count'" >&2; exit 2; }
 
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-if [[ $filter == *_test.* ]]; then
+if [[ $filter == *_test* ]]; then
   export CLATTER=$top/build/release/apps/clatter/clatter CLATTER_KILLS=$count CLATTER_DISKS=$count
   export CLATTER_COMBINATIONS=$count CLATTER_RELEASES=$count CLATTER_VERIFIED=$count CLATTER_SENSITIVITY=$count
+  export CLATTER_COINCIDENCES=$count
   export CLATTER_VERIFY=$top/build/release/apps/verify/clatter-verify CLATTER_SOURCE=$top
   export PYTHONDONTWRITEBYTECODE=1
   [[ $1 != starts ]] || export CLATTER_ALL_STARTS=1

@@ -78,10 +78,10 @@ class Program:
             self.sweep(lists, points, runs, time, observe, *words)
         return runs
 
-    def points(self, sweep, count, time, observe):
+    def points(self, sweep, count, time, observe, *words):
         """The results of a sweep of one dimension and so many points."""
         runs = Runs(logs=[None] * count)
-        self.sweep(sweep, range(count), runs, time, observe)
+        self.sweep(sweep, range(count), runs, time, observe, *words)
         return runs
 
     def branch(self, scene, limits):
@@ -129,10 +129,11 @@ class Program:
                         empty = np.full((len(runs.logs), *values.shape[1:]), None if is_text else math.nan)
                         kept = runs.values.setdefault(key, empty)
                         kept[list(points)] = values[()]
-            columns = [data["impact_" + column][()] for column in ("tau", "stop", "v_before", "v_after")]
-            ends = np.cumsum(data["impact_count"][()])
-            for point, log in zip(points, np.split(np.column_stack(columns), ends[:-1])):
-                runs.logs[point] = log
+            if "impact_count" in data:
+                columns = [data["impact_" + column][()] for column in ("tau", "stop", "v_before", "v_after")]
+                ends = np.cumsum(data["impact_count"][()])
+                for point, log in zip(points, np.split(np.column_stack(columns), ends[:-1])):
+                    runs.logs[point] = log
         output.unlink()
 
 
