@@ -22,9 +22,10 @@ namespace clatter::motion {
 /// and the remainder is of second order, bounded by Taylor's theorem (`rebound`).
 class Neighbourhood {
  public:
-  /// All motions within `start`; `rounding` bounds the error of displacements and velocities.
-  Neighbourhood(const Stops& stops, const Ellipse& start, double rounding)
-      : stops_(stops), first_order_(start), rounding_(rounding), reach_(start.size() + rounding) {}
+  /// All motions within `start`; `rounding` bounds the error of displacements and velocities. If the start is on a stop
+  /// and `have_met`, all of them have had their impact there.
+  Neighbourhood(const Stops& stops, const Ellipse& start, double rounding, bool have_met = false)
+      : stops_(stops), first_order_(start), rounding_(rounding), reach_(start.size() + rounding), have_met_(have_met) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -71,8 +72,9 @@ class Neighbourhood {
   void begin_beside_stop(const Motion<double>& start) {
     for (const Side side : {Side::lower, Side::upper}) {
       const Stop<double> stop = stop_at<double>(stops_, side);
-      if (!(std::abs(start.x - stop.position) <= reach_ && stop.into(start.v) < 0)) continue;
-      holds_ = depart({0, std::abs(start.v), 0, std::abs(start.a), 0});
+      const bool leaves = stop.into(start.v) < 0 || (have_met_ && start.v == 0);
+      if (!(std::abs(start.x - stop.position) <= reach_ && leaves)) continue;
+      holds_ = depart({0, std::abs(start.v), have_met_ ? -stop.into(start.a) : 0.0, std::abs(start.a), 0});
       return;
     }
   }
@@ -154,6 +156,7 @@ class Neighbourhood {
   double approached_at_ = 0.0;    ///< the time from which they may have
   Field field_{};                 ///< of the last arc
   double force_ = 0;              ///< at its end
+  bool have_met_;                 ///< the stop that the start is on, if it is on one
   bool begun_ = false;
   bool holds_ = true;
 };

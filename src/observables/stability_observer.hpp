@@ -30,7 +30,7 @@ class Stability::Observer {
   /// `rounding` bounds the errors of displacements and velocities.
   Observer(const Stops& stops, double rounding)
       : tangent_(stops),
-        nearby_(stops, motion::Ellipse::disc(rounding), rounding),
+        nearby_(stops, motion::Ellipse::disc(rounding), rounding, true),
         graze_matters_(!has_soft_stop(stops)) {}
 
   template <class A>

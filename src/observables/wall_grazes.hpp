@@ -48,10 +48,10 @@ class WallGrazes {
     return m.x > inner_.lower && m.x < inner_.upper;
   }
   /// How long the flight is near a wall, forwards or backwards in time: until its speed, its acceleration or its rate
-  /// has taken it twice as far as rounding.
+  /// has taken it twice as far as rounding. A section may cut a flight anywhere, just beside the inner walls, too.
   [[nodiscard]] double time_near(const motion::Motion<double>& m, double jerk, double forwards) const {
-    if (is_clear(m)) return 0.0;
-    const double inwards = m.x >= inner_.upper ? -1 : 1;
+    if (m.x > inner_.lower + rounding_ && m.x < inner_.upper - rounding_) return 0.0;
+    const double inwards = m.x >= inner_.upper - rounding_ ? -1 : 1;
     const auto lead = [&](double rate) { return std::max(0.0, inwards * rate); };
     return std::min({2 * rounding_ / lead(forwards * m.v), std::sqrt(4 * rounding_ / lead(m.a)),
                      std::cbrt(12 * rounding_ / lead(-forwards * jerk))});

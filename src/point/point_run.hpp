@@ -137,13 +137,13 @@ class Point {
   [[nodiscard]] bool take(const motion::State<double>& section, motion::State<double>& state) const {
     constexpr double same = 1e-6;
     const double size = std::max(std::abs(section.x), std::abs(section.v));
-    const auto is_near = [&](double x, double v) {
-      return std::max(std::abs(state.x - x), std::abs(state.v - v)) <= same * size;
+    const auto are_near = [&](const steady::SectionNumbers& a, const steady::SectionNumbers& b) {
+      return std::max(std::abs(a.x - b.x), std::abs(a.v - b.v)) <= same * size;
     };
-    if (!is_near(section.x, section.v)) {  // perhaps since an impact falls on the section, which double has passed
-      const steady::SectionNumbers beyond =
-          steady::BeyondContact(problem_, integrator_.period())({section.x, section.v});
-      return is_near(beyond.x, beyond.v);
+    const steady::SectionNumbers here{state.x, state.v}, there{section.x, section.v};
+    if (!are_near(here, there)) {  // perhaps an impact falls on the section, and one of them is before it
+      const steady::BeyondContact beyond_contact(problem_, integrator_.period());
+      return are_near(beyond_contact(here), beyond_contact(there));
     }
     if (state.chatters || state.v == 0) return true;
     const std::int64_t periods = state.periods;

@@ -20,7 +20,7 @@ PERIODIC = 0
 CONTRACTS = 0.95  # motion with greater multipliers isn't found to many digits from another start
 
 # They belong to a start, not to the motion: when it is found, and which impact of the period comes first. And keys.
-OF_A_START = "impact_total simulated_periods settling_estimate v_before v_after velocity_ratio tau x v z w".split()
+OF_A_START = "impact impact_phase impact_total simulated_periods settling_estimate v_before v_after velocity_ratio tau x v z w".split()
 KEYS = {*Scene.__dataclass_fields__, "damping", "force", "frequency"}
 
 

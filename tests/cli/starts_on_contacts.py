@@ -87,13 +87,18 @@ class Contacts:
 
     def is_usable(self, i):
         runs, log = self.reference, self.reference.logs[i]
-        if not contracts(runs, i) or len(log) == 0:
+        if not contracts(runs, i) or len(log) == 0 or self.is_chance(i):
             return False
         if np.nansum(runs["rest_fraction"][i]) > 0 and self.scenes[i].loose_mass:
             return False  # the place of the main mass isn't in the log
         first, last = log[0][0], log[-1][0]
         period = runs["period"][i]
         return 1e-6 < first and last < period - 1e-6  # no contact is near a section already
+
+    def is_chance(self, i):
+        """Whether a motion rests now and then, and may be chaotic between the rests: another start may not have come to
+        rest by the end, and the last digits of a scene, in which that of a machine differs, decide the period."""
+        return np.nansum(self.reference["rest_fraction"][i]) > 0 and self.reference["period_ratio"][i] >= 4
 
     def start(self, i, row):
         """The scene begun on an impact of its log; where the next velocity isn't known, just before it."""

@@ -82,7 +82,9 @@ TEST(RepeatFinder, forgets_the_size_of_an_early_motion) {
   for (int section = 1; section < 600 && n == 0; ++section) {
     const double left = 1e-3 * std::pow(0.8, section);
     n = repeat.add(1.0 + left, 0.0, -0.1, 1.0);
-    if (n > 0) EXPECT_LT(left, 1e-12);
+    if (n > 0) {
+      EXPECT_LT(left, 1e-12);
+    }
   }
   EXPECT_EQ(n, 1u);
 }
