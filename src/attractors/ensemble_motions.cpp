@@ -12,16 +12,17 @@ namespace {
 /// The phase of the start: of the force, or of the shaking.
 double start_phase(const point::Problem& problem) { return problem.start.phase - problem.shaking.lead; }
 
-/// From the phase of the start to phase 0, in forcing periods, 0 ... 1.
-double turns_to_phase_zero(const point::Problem& problem) {
-  const double turns = start_phase(problem) / (2 * pi<double>());
+/// From a phase to phase 0, in forcing periods, 0 ... 1.
+double turns_to_phase_zero(double phase) {
+  const double turns = phase / (2 * pi<double>());
   return std::ceil(turns) - turns;
 }
 
 /// Whether a point can have ended so: what was read from a file may be anything.
 bool is_possible(const point::Problem& problem, const Ending& ending) {
   return ending.periods >= 0 && ending.periods <= static_cast<double>(steady::RepeatFinder::longest) &&
-         ending.periods == std::floor(ending.periods) && is_inside(problem, ending.state);
+         ending.periods == std::floor(ending.periods) && std::isfinite(ending.phase.value_or(0.0)) &&
+         is_inside(problem, ending.state);
 }
 
 /// A mass that friction holds for good.
@@ -42,8 +43,9 @@ std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& prob
     if (const auto known = passing(state)) return known;
     return add({.periodic = standstill(problem, state.x), .state = state});
   }
-  if (const double turns = turns_to_phase_zero(problem); turns > 0) {
-    const auto later = state_after(started(problem, state, start_phase(problem)), turns);
+  const double phase = ending.phase.value_or(start_phase(problem));
+  if (const double turns = turns_to_phase_zero(phase); turns > 0) {
+    const auto later = state_after(started(problem, state, phase), turns);
     if (!later) return std::nullopt;
     state = *later;
   }

@@ -11,10 +11,11 @@
 
 namespace clatter::attractors {
 
-/// The state in which a point of a sweep ended, at the forcing phase of its start.
+/// The state in which a point of a sweep ended, after whole forcing periods.
 struct Ending {
   SectionState state{};
   double periods = 0.0;  ///< forcing periods after which the motion repeats; 0: none; NaN: failed, or not known
+  std::optional<double> phase{};  ///< forcing phase then, as the scene gives it, rad; nothing: that of its start
 };
 
 /// A motion that points with equal parameters end in.

@@ -105,7 +105,7 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   observed.loose_extrema = observed.loose_impacts = observed.loose_trajectory = observed.loose_section =
       observed.loose_stability = observed.loose_attractor = observed.loose_sensitivity = has_loose_mass(settings);
   sweep.problem.observe.of_friction = sweep.problem.observe.of_sticks = has_friction_somewhere(settings);
-  if (sweep.follow) sweep.direction = direction_of(settings);
+  if (sweep.follow) sweep.direction = direction_of(settings), observed.followed_attractor = true;
   for (const std::vector<std::size_t>& group : groups) {
     sweep::Dimension& dimension = sweep.dimensions.emplace_back();
     for (const std::size_t axis : group) {

@@ -14,12 +14,14 @@ namespace clatter::observables {
 struct Attractor {
   struct Settings {
     bool attractor = false;
-    bool loose_attractor = false;  ///< with it: the state of a loose mass
+    bool loose_attractor = false;     ///< with it: the state of a loose mass
+    bool followed_attractor = false;  ///< with it: the phase, which along `follow` is that of the points before
   };
   struct Values {
     double attractor_x = no_value, attractor_v = no_value;  ///< at the end of the observed time
     double attractor_periods = no_value;  ///< forcing periods after which the motion repeats; 0: none; NaN: not known
     double attractor_z = no_value, attractor_w = no_value;  ///< of a loose mass, then; the point sets them
+    double attractor_phase = no_value;                      ///< of the force as the scene gives it, then, rad
   };
   static constexpr std::tuple fields{
       Field{Key{"observe", "attractor", Kind::flag, "false", "true",
@@ -39,6 +41,9 @@ struct Attractor {
         in_relative_frame(intermediate("attractor_v", "velocity in which the point ended", &Values::attractor_v)),
         intermediate("attractor_periods", "forcing periods after which it repeats, 0: none",
                      &Values::attractor_periods)};
+    if (settings.followed_attractor)
+      all.push_back(
+          intermediate("attractor_phase", "forcing phase in which the point ended", &Values::attractor_phase));
     if (!settings.loose_attractor) return all;
     all.push_back(intermediate("attractor_z", "place of the loose mass in the housing in which the point ended",
                                &Values::attractor_z));
@@ -64,8 +69,12 @@ class Attractor::Observer {
   /// The end of a period is its beginning. Unforced motion that goes on loses nothing, and is no attractor.
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) const {
     if (span.transient || span.undecided) return {};
-    if (span.scene.oscillator.forcing == 0) return span.stands_still ? Values{x, 0.0, 1.0} : Values{};
-    return {x, v, span.periodic ? std::round(span.turns) : 0.0};
+    if (span.scene.oscillator.forcing == 0 && !span.stands_still) return {};
+    Values values{
+        .attractor_x = x, .attractor_v = v, .attractor_periods = span.periodic ? std::round(span.turns) : 0.0};
+    if (span.scene.oscillator.forcing == 0) values.attractor_v = 0.0, values.attractor_periods = 1.0;
+    values.attractor_phase = span.theta;  // after whole periods that of the beginning
+    return values;
   }
 };
 

@@ -62,8 +62,8 @@ class Point {
     result_.evaluations = observers.evaluations();
     if (outcome != stepping::Outcome::completed) return broken(state, steady::status_of(outcome));
     static_cast<Start&>(result_.end) = {state.x, state.v, problem_.start.phase};
-    if (state.phase_turns > 0)
-      result_.end.phase = std::fmod(problem_.start.phase + 2 * pi<double>() * state.phase_turns, 2 * pi<double>());
+    if (const double turns = force_turns_at_end(state); turns > 0)
+      result_.end.phase = std::fmod(problem_.start.phase + 2 * pi<double>() * turns, 2 * pi<double>());
     observers.finish(span_, state.x, state.v, result_);
     if (has_loose_mass(problem_.loose)) tell_loose_end(state);
     if (observers.template of<observables::Energy>() && !std::isfinite(result_.energy_residual)) {
@@ -112,6 +112,15 @@ class Point {
   Observers begin() {
     describe_span();
     return Observers(problem_.observe, span_);
+  }
+
+  /// By which part of a turn the phase of the force lies beyond that of the start once the observed time is over.
+  /// Without a force periods are the mass's own, and the phase grows by nu tau all the same: the next point of a chain
+  /// may have a force, or may be shaken.
+  [[nodiscard]] double force_turns_at_end(const motion::State<double>& state) const {
+    if (problem_.oscillator.forcing != 0) return state.phase_turns;
+    const double periods = static_cast<double>(observed_.from.periods) + observed_.turns;
+    return part_of_turn(problem_.oscillator.frequency * integrator_.period() / (2 * pi<double>()) * periods);
   }
 
   /// Whether derivatives that are asked for don't exist, since the motion grazes a stop.

@@ -40,7 +40,8 @@ Units natural_units(const GivenScene& given) {
 std::pair<Scene, Units> computed(const GivenScene& given) {
   const Units units = natural_units(given);
   Scene scene = computed(given, units);
-  if (given.is_si && (given.oscillator.stiffness == 0 || !has_frequency(given))) scene.oscillator.frequency = 1;
+  const bool is_unit = given.oscillator.stiffness == 0 && has_frequency(given);  // of the time, to rounding
+  if (given.is_si && (is_unit || given.oscillator.frequency == 0)) scene.oscillator.frequency = 1;
   return {scene, units};
 }
 

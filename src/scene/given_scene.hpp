@@ -103,8 +103,8 @@ template <class Number>
   return scene;
 }
 
-/// The scene in its natural units, and these. A machine without a spring has the frequency 1, as has one that nothing
-/// shakes.
+/// The scene in its natural units, and these. A machine without a spring has the frequency 1 under a force, as has one
+/// whose frequency isn't given; with it the phase goes on where there is no force.
 [[nodiscard]] std::pair<Scene, Units> computed(const GivenScene& given);
 
 /// The scene in the frame of what is shaken, with the force there in place of the one that was given (eqs. 39 to 41).

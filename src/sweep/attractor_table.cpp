@@ -143,10 +143,11 @@ std::optional<attractors::Numbering> numbering_by(
     const Sweep& sweep, const std::optional<results::Shard>& shard, int threads,
     const std::function<std::span<const double>(std::string_view output)>& numbers_of) {
   if (!sweep.problem.observe.attractor) return std::nullopt;
-  const bool loose = sweep.problem.observe.loose_attractor;
+  const bool loose = sweep.problem.observe.loose_attractor, follows = sweep.problem.observe.followed_attractor;
   const std::span<const double> none,
       x = numbers_of("attractor_x"), v = numbers_of("attractor_v"), periods = numbers_of("attractor_periods"),
-      z = loose ? numbers_of("attractor_z") : none, w = loose ? numbers_of("attractor_w") : none;
+      z = loose ? numbers_of("attractor_z") : none, w = loose ? numbers_of("attractor_w") : none,
+      phase = follows ? numbers_of("attractor_phase") : none;
   const Share share(sweep, shard);
   return attractors::number_motions(
       {.grid = grid_of(sweep),
@@ -159,7 +160,9 @@ std::optional<attractors::Numbering> numbering_by(
        .count = share.points(),
        .ending =
            [&](std::size_t i) {
-             return attractors::Ending{{x[i], v[i], loose ? z[i] : 0.0, loose ? w[i] : 0.0}, periods[i]};
+             return attractors::Ending{{x[i], v[i], loose ? z[i] : 0.0, loose ? w[i] : 0.0},
+                                       periods[i],
+                                       follows ? std::optional(phase[i]) : std::nullopt};
            },
        .for_each = [threads](std::size_t count,
                              const std::function<void(std::size_t)>& work) { for_each(count, threads, work); }});
