@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "motion/soft_stop.hpp"
@@ -17,7 +18,10 @@ namespace clatter::observables {
 class Energy::Observer {
  public:
   Observer(const Settings&, const ObservedSpan& span)
-      : oscillator_(span.scene.oscillator), stops_(span.scene.stops), phase_(span.scene.start.phase) {
+      : oscillator_(span.scene.oscillator),
+        stops_(span.scene.stops),
+        friction_(span.scene.friction.kinetic),
+        phase_(span.scene.start.phase) {
     if (has_loose_mass(span.scene.loose)) loose_.emplace(span);
   }
 
@@ -26,19 +30,18 @@ class Energy::Observer {
     if (loose_) return loose_->arc(arc, begins, length);
     if (!(length > 0)) return;
     const motion::Motion<double>& first = arc.start();
-    begin(first.x, first.v);
+    see({first.x, arc.anchor(), first.offset}, first.v);
     integrate(arc, length);
   }
   void rest(const motion::Rest& rest) {
-    begin(rest.position, rest.v_begin);
+    see(Place(rest.position), rest.v_begin);
     if (rest.is_stick()) return press(rest);
     const std::size_t stop = index_of(rest.side);
-    // a chatter takes the energy of its rebounds, and gives their momentum back to the mass
-    impulse_[stop] += pressing(rest) - sign_of(rest.side) * (rest.v_end - rest.v_begin);
+    impulse_[stop] += rest.v_begin != 0 || rest.v_end != 0 ? of_chatter(rest) : pressing(rest);
     loss_impact_[stop] += (rest.v_begin - rest.v_end) * (rest.v_begin + rest.v_end) / 2;
   }
   void impact(const motion::Impact& impact) {
-    begin(impact.position, impact.before);
+    see(Place(impact.position), impact.before);
     const std::size_t stop = index_of(impact.side);
     loss_impact_[stop] += (impact.before - impact.after) * (impact.before + impact.after) / 2;
     impulse_[stop] += std::abs(impact.after - impact.before);
@@ -57,16 +60,19 @@ class Energy::Observer {
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
     if (loose_) return with_loose_mass(span, x, v);
-    begin(x, v);
-    const double load_work = oscillator_.load * (x - x_begin_);  // of a period only that of rounding
+    const Place end = end_at(x);
+    see(end, v);
+    const double way = is_soft_ ? end.from(*begin_) : x - begin_->x;
+    const double load_work = oscillator_.load * way;  // of a period only that of rounding
     Values values{.work_in = force_work_ + (span.periodic ? 0.0 : load_work),
                   .loss_damping = loss_damping_,
                   .loss_friction = loss_friction_};
     values.loss_impact = loss_impact_, values.impulse = impulse_;
-    const double lost = loss_impact_[0] + loss_impact_[1];
-    const double k = oscillator_.stiffness, stored = stored_at(x) - stored_at(x_begin_),
-                 growth = ((v - v_begin_) * (v + v_begin_) + k * (x - x_begin_) * (x + x_begin_)) / 2 + stored;
-    values.energy_residual = force_work_ + load_work - loss_damping_ - loss_friction_ - lost - growth;
+    const double lost = loss_impact_[0] + loss_impact_[1], kinetic = (v - v_begin_) * (v + v_begin_);
+    const double k = oscillator_.stiffness, spring = k * way * (x + begin_->x);
+    values.energy_residual = force_work_ + load_work - loss_damping_ - loss_friction_ - lost - (kinetic + spring) / 2;
+    if (is_soft_)
+      values.energy_residual = force_work_ - loss_damping_ - loss_friction_ - lost - (kinetic / 2 + growth(end, way));
     values.impact_power = lost / span.total;
     return values;
   }
@@ -83,9 +89,38 @@ class Energy::Observer {
     values.impact_power = (ledger.lost[0] + ledger.lost[1]) / span.total;
     return values;
   }
-  /// The state in which the observed time begins: the first that is seen.
-  void begin(double x, double v) {
-    if (!has_begun_) x_begin_ = x, v_begin_ = v, has_begun_ = true;
+  /// A displacement, and as an arc keeps it: its distance from an anchor has more digits beside a soft stop.
+  struct Place {
+    double x, anchor, offset = 0.0;
+
+    explicit Place(double at) : x(at), anchor(at) {}
+    Place(double at, double from, double distance) : x(at), anchor(from), offset(distance) {}
+    [[nodiscard]] double from(const Place& other) const { return (anchor - other.anchor) + (offset - other.offset); }
+    [[nodiscard]] double beyond(double position) const { return (anchor - position) + offset; }
+  };
+  /// A state of the motion; in the first that is seen the observed time begins.
+  void see(const Place& place, double v) {
+    if (!begin_) begin_ = place, v_begin_ = v;
+    last_ = place;
+  }
+  /// The end of the observed time, at a displacement: where the last arc ends, unless a better state has replaced it.
+  [[nodiscard]] Place end_at(double x) const {
+    if (begin_ && x == begin_->x) return *begin_;
+    const bool is_last = last_ && std::abs(last_->x - x) <= 4 * std::numeric_limits<double>::epsilon() * std::abs(x);
+    return is_soft_ && is_last ? *last_ : Place(x);
+  }
+  /// By how much the energy of the springs grows over that which the load gives, from the begin to a place: pressed
+  /// onto a soft stop, all forces together, whose sum is small, times the way.
+  [[nodiscard]] double growth(const Place& end, double way) const {
+    double force = oscillator_.stiffness * (end.x + begin_->x) / 2 - oscillator_.load, stored = 0.0;
+    for (const Side side : {Side::lower, Side::upper}) {
+      const double from = depth_at(*begin_, side), to = depth_at(end, side), kappa = stiffness_of(side);
+      if (from > 0 && to > 0)
+        force += sign_of(side) * kappa * (from + to) / 2;
+      else
+        stored += kappa * (to - from) * (to + from) / 2;
+    }
+    return force * way + stored;
   }
 
   /// Over an arc, by panels in which neither v^2 nor v sin(theta) turns by more than a few radians.
@@ -102,6 +137,10 @@ class Energy::Observer {
       if (stop != nullptr) impulse += weight * stop->force(stop->into(m.offset), stop->into(m.v));
     });
     force_work_ += constants.f * work;
+    if (is_soft_) {
+      const motion::Motion<double> end = arc.at(length);
+      last_ = Place(end.x, arc.anchor(), end.offset);
+    }
     if (constants.friction != 0) loss_friction_ -= constants.friction * (arc.at(length).offset - arc.start().offset);
     if (stop != nullptr) {
       loss_damping_ += 2 * oscillator_.damping * squares;
@@ -109,7 +148,7 @@ class Energy::Observer {
       impulse_[index_of(stop->side)] += impulse;
     } else {
       loss_damping_ += 2 * constants.h * squares;
-      if (is_soft_) lose_stored(arc.start().x, arc.at(length).x);
+      if (is_soft_) lose_stored({arc.start().x, arc.anchor(), arc.start().offset}, *last_);
     }
     evaluations_ += 20 * static_cast<double>(panels);
   }
@@ -142,37 +181,73 @@ class Energy::Observer {
       if (arc.constants().stop.side != Side::none) return &arc.constants().stop;
     return nullptr;
   }
-  /// Energy of the spring of a soft stop at a displacement beyond it.
-  [[nodiscard]] double stored_at(double x, Side side) const {
+  /// How far beyond the position of a soft stop a place is; 0: not beyond, or the stop is rigid.
+  [[nodiscard]] double depth_at(const Place& place, Side side) const {
     if (!is_soft(stops_, side)) return 0.0;
-    const auto stop = motion::soft_stop_at<double>(stops_, side);
-    const double depth = std::max(0.0, stop.into(x - stop.position));
-    return stop.stiffness * depth * depth / 2;
+    return std::max(0.0, sign_of(side) * place.beyond(side == Side::upper ? stops_.upper : stops_.lower));
   }
-  [[nodiscard]] double stored_at(double x) const { return stored_at(x, Side::lower) + stored_at(x, Side::upper); }
+  [[nodiscard]] double stiffness_of(Side side) const {
+    if (!is_soft(stops_, side)) return 0.0;
+    return side == Side::upper ? stops_.stiffness_upper : stops_.stiffness_lower;
+  }
   /// A stop that the mass outruns loses the energy of its spring as it relaxes.
-  void lose_stored(double from, double to) {
-    for (const Side side : {Side::lower, Side::upper})
-      loss_impact_[index_of(side)] += stored_at(from, side) - stored_at(to, side);
+  void lose_stored(const Place& from, const Place& to) {
+    for (const Side side : {Side::lower, Side::upper}) {
+      const double before = depth_at(from, side), after = depth_at(to, side);
+      loss_impact_[index_of(side)] += stiffness_of(side) * (before - after) * (before + after) / 2;
+    }
   }
 
-  /// Integral of the force that presses the mass into a stop, eq. 22, over a rest.
+  /// Integral of the force that presses the mass into a stop, eq. 22, over a rest. A pull away from the stop is none of
+  /// its own: friction holds the mass against that.
   [[nodiscard]] double pressing(const motion::Rest& rest) const {
+    if (friction_ == 0) return pressing(rest, rest.time, rest.length);
+    const double constant = sign_of(rest.side) * constant_force(oscillator_, rest.position),
+                 force = std::abs(oscillator_.forcing);
+    if (constant >= force) return pressing(rest, rest.time, rest.length);
+    if (constant <= -force) return 0.0;
+    // the force is a sine of a phase that begins with it, and presses between two of its zeros
+    const double begin = phase_ + oscillator_.frequency * rest.time +
+                         (sign_of(rest.side) * oscillator_.forcing < 0 ? pi<double>() : 0.0),
+                 end = begin + oscillator_.frequency * rest.length, rises = std::asin(-constant / force),
+                 turn = 2 * pi<double>();
+    double sum = 0.0;
+    for (double turns = std::floor((begin - rises) / turn) * turn; turns + rises < end; turns += turn) {
+      const double from = std::max(begin, turns + rises), to = std::min(end, turns + pi<double>() - rises);
+      if (from < to)
+        sum += pressing(rest, rest.time + (from - begin) / oscillator_.frequency, (to - from) / oscillator_.frequency);
+    }
+    return sum;
+  }
+  [[nodiscard]] double pressing(const motion::Rest& rest, double time, double length) const {
     const Oscillator& o = oscillator_;
-    double sum = constant_force(o, rest.position) * rest.length;
+    double sum = constant_force(o, rest.position) * length;
     if (o.forcing != 0) {
-      const double half = o.frequency * rest.length / 2;
-      sum += 2 * o.forcing / o.frequency * std::sin(phase_ + o.frequency * rest.time + half) * std::sin(half);
+      const double half = o.frequency * length / 2;
+      sum += 2 * o.forcing / o.frequency * std::sin(phase_ + o.frequency * time + half) * std::sin(half);
     }
     return sign_of(rest.side) * sum;
+  }
+  /// The impulse of a chatter that is summed: the mass has its momentum back in the end, and friction, which presses it
+  /// on while it rises, has held it off for longer while it fell.
+  [[nodiscard]] double of_chatter(const motion::Rest& rest) const {
+    const double sum = pressing(rest, rest.time, rest.length);
+    const double given_back = sum - sign_of(rest.side) * (rest.v_end - rest.v_begin);
+    if (friction_ == 0 || !(rest.length > 0)) return given_back;
+    // falls and rises take times as (a + mu)^(1/2) to (a - mu)^(1/2)
+    const double a = sum / rest.length;
+    if (!(a > friction_)) return given_back;
+    const double both = a + std::sqrt((a - friction_) * (a + friction_));
+    return given_back - friction_ * friction_ / both * rest.length;
   }
 
   Oscillator oscillator_;
   Stops stops_;
   bool is_soft_ = has_soft_stop(stops_);
-  double phase_;  ///< of the force at the beginning, a section
-  bool has_begun_ = false;
-  double x_begin_ = 0, v_begin_ = 0;
+  double friction_;  ///< kinetic level
+  double phase_;     ///< of the force at the beginning, a section
+  std::optional<Place> begin_{}, last_{};
+  double v_begin_ = 0;
   double force_work_ = 0, loss_damping_ = 0, loss_friction_ = 0;
   std::array<double, 2> loss_impact_{}, impulse_{};  ///< [stop]
   double evaluations_ = 0;

@@ -59,11 +59,11 @@ class LooseEnergy {
     loose_v_ = last;
   }
   void strike(const motion::Strike& strike) {
-    lose(strike.side, strike.before, strike.after, strike.v_after - strike.v_before);
+    lose(strike.side, strike.before, strike.after);
     loose_v_ = strike.v_after + strike.after;
   }
   void press(const motion::Press& press) {
-    lose(press.side, press.speed, 0.0, press.v_after - press.v_before);
+    lose(press.side, press.speed, 0.0);
     loose_v_ = press.v_after;
   }
 
@@ -112,9 +112,11 @@ class LooseEnergy {
   void see_loose(double v) {
     if (!begin_loose_) begin_loose_ = v;
   }
-  void lose(Side side, double before, double after, double jump) {
+  /// An impact: its impulse from z', as the velocities of the main mass differ by less than their digits if the loose
+  /// one is very light.
+  void lose(Side side, double before, double after) {
     lost_[index_of(side)] += rule_.loss(before, after);
-    impulse_[index_of(side)] += std::abs(jump);
+    impulse_[index_of(side)] += rule_.share() * std::abs(before - after);
   }
   /// Gauss-Legendre quadrature by panels in which nothing turns by more than a few radians.
   template <class Add>
