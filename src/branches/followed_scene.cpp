@@ -1,5 +1,6 @@
 #include "branches/followed_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -71,9 +72,18 @@ SceneNumbers<Along> numbers_along(const FollowedScene& scene, Parameter paramete
 }
 
 bool keeps_symmetry(const FollowedScene& scene, Parameter parameter) {
-  const bool moves_equilibrium = varies_stiffness(scene, parameter) && mirror_centre(scene) != 0.0;
-  const bool is_wall = parameter.is_loose() && parameter.role() == Role::position;  // any two have a middle
-  return (parameter.keeps_symmetry() || is_wall) && !moves_equilibrium;
+  if (parameter.is_loose() && parameter.role() == Role::position) return true;  // any two walls have a middle
+  if (parameter.role() != Role::load && !parameter.keeps_symmetry()) return false;
+  const SceneNumbers<Along> p = numbers_along(scene, parameter);
+  const Along &k = p.oscillator.stiffness, &load = p.oscillator.load;
+  const bool is_held = std::isfinite(scene.stops.lower) && std::isfinite(scene.stops.upper);
+  if (!is_held) return k.value != 0 || load.slope[0] == 0;  // the mirror goes along with the equilibrium
+  // stops hold it in their middle, where spring and load have to stay in balance: both change alike with a mass, to
+  // rounding
+  const Along out_of_balance = k * (p.stops.lower + p.stops.upper) / 2 - load;
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const double farther = std::max(std::abs(scene.stops.lower), std::abs(scene.stops.upper));
+  return std::abs(out_of_balance.slope[0]) <= rounding * std::abs(k.slope[0]) * farther;
 }
 
 bool varies_stiffness(const FollowedScene& scene, Parameter parameter) {

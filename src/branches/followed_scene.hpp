@@ -88,7 +88,8 @@ template <class Number>
 using Along = Dual<double, 1>;
 [[nodiscard]] SceneNumbers<Along> numbers_along(const FollowedScene& scene, Parameter parameter);
 
-/// Whether a symmetric scene stays so if a parameter changes.
+/// Whether a symmetric scene stays so if a parameter changes: stops hold the mirror in their middle, and without any
+/// it goes along with the equilibrium.
 [[nodiscard]] bool keeps_symmetry(const FollowedScene& scene, Parameter parameter);
 
 /// Whether the stiffness of the spring, per unit mass, changes with a parameter.
