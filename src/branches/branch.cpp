@@ -61,9 +61,7 @@ class Follower {
     if (from.opens) return follow_opened(from);
     const OrbitEquations equations = equations_for(from.orbit);
     CurvePoint start{equations.unknowns_of(from.scene, from.orbit), {}, 0.0};
-    Vector axis(equations.unknowns(), 0.0);
-    axis.back() = 1;
-    if (from.special) {
+    if (from.special && !from.passes) {
       const auto first = first_step(equations, start, from, settings_.tolerance);
       if (!first) return record_.fail(record_.point(equations, start), no_step_off);
       if (is_left_out(from, *first)) return record_.leave_out(*from.special);
@@ -73,16 +71,22 @@ class Follower {
       walk(equations, start, from.special);
       return;
     }
-    const auto at = corrected(equations, start.at, axis, settings_.tolerance);
-    const auto along = at ? tangent(equations, *at, axis) : std::nullopt;
-    if (!along)
+    const auto begun = point_near(equations, start.at, settings_.tolerance);
+    if (from.special) {  // the motion that another branch was born on
+      if (!begun || violation(equations, begun->at)) return record_.fail(record_.point(equations, start), no_step_off);
+      record_.meet(*from.special, record_.branch());
+    } else if (!begun) {
       throw StartError(
           "Newton's method does not converge from the motion at the start; move it away from a special point");
-    start.at = *at, start.tangent = *along;
-    if (violation(equations, start.at))
+    } else if (violation(equations, begun->at)) {
       throw StartError(
           "Newton's method leads from the start to no motion between the stops; set x0 and v0 nearer to the motion "
           "that is meant");
+    }
+    walk_both_ways(equations, *begun);
+  }
+
+  void walk_both_ways(const OrbitEquations& equations, const CurvePoint& start) {
     CurvePoint back = start;
     for (double& x : back.tangent) x = -x;
     record_.walk_back();
@@ -122,7 +126,7 @@ class Follower {
   void walk(const OrbitEquations& equations, const CurvePoint& start, std::optional<std::size_t> from) {
     Walk walk(equations, start, {settings_.tolerance, settings_.largest_step});
     BranchPoint last = record_.point(equations, start);
-    if (leaves_range(start)) return record_.end(last, "range");
+    if (leaves_range(start, settings_)) return record_.end(last, "range");
     for (;;) {
       if (record_.is_full()) return record_.fail(last, max_points_spent);
       const auto next = walk.next();
@@ -143,13 +147,6 @@ class Follower {
       record_.add(last);
       from.reset();
     }
-  }
-
-  /// Whether a walk begins on a bound of the range, outwards.
-  [[nodiscard]] bool leaves_range(const CurvePoint& start) const {
-    const double at = start.at.back() * width_, rounding = 1e-14 * width_;
-    return (start.tangent.back() < 0 && at - settings_.range[0] <= rounding) ||
-           (start.tangent.back() > 0 && settings_.range[1] - at <= rounding);
   }
 
   void end_of_range(const OrbitEquations& equations, const Walk& walk, double step,
@@ -192,8 +189,10 @@ class Follower {
     if (!exact || std::abs(exact->back() - point.at.back()) > 1e-6) return false;
     const SpecialKind kind = half.mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
     const Record::Noted noted = record_.note(kind, record_.point(there, {*exact, {}, point.arclength}));
-    if (noted.is_new && !leaves_out(kind, noted.number))
+    if (noted.is_new && !leaves_out(kind, noted.number)) {
       waiting_.push_back({there.scene_at(*exact), there.orbit_at(*exact), {}, noted.number, generation_ + 1});
+      waiting_.back().passes = true;
+    }
     // what waits there to be born is this branch, or has the same numbers
     std::erase_if(waiting_, [&](const Waiting& one) { return one.special == noted.number && one.direction; });
     return true;
@@ -210,14 +209,10 @@ class Follower {
     }
     const BranchPoint at = record_.point(equations, exact);
     const auto [special, is_new] = record_.note(kind, at);
-    if (is_new && gives_birth && !leaves_out(kind, special)) wait_for_daughter(at, special);
-  }
-
-  /// A branch born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
-  void wait_for_daughter(const BranchPoint& at, std::size_t special) {
-    const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.repeated(2);
-    const Vector direction = direction_of_daughter(at.scene, at.orbit, daughter, speed_scale(at.scene, daughter));
-    waiting_.push_back({at.scene, daughter, direction, special, generation_ + 1});
+    if (!is_new)  // a branch that passes where another one was born, and waits there, is that one
+      std::erase_if(waiting_, [&](const Waiting& one) { return one.special == special && one.passes; });
+    else if (gives_birth && !leaves_out(kind, special))
+      waiting_.push_back(daughter_at(at, special, generation_ + 1));
   }
 
   /// Without restitution, a flight that begins with a turn into its stop doesn't begin: the mass is pressed, and rests.

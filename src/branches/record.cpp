@@ -1,6 +1,7 @@
 #include "branches/record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "branches/measures/measures.hpp"
@@ -23,6 +24,28 @@ constexpr std::array<std::string_view, 15> special_names{"fold",
                                                          "grazing-sliding",
                                                          "switching-sliding",
                                                          "Neimark-Sacker"};
+
+bool meet(const std::vector<attractors::SectionState>& one, const std::vector<attractors::SectionState>& other,
+          double within) {
+  return std::ranges::any_of(one, [&](const attractors::SectionState& a) {
+    return std::ranges::any_of(other, [&](const attractors::SectionState& b) {
+      const attractors::SectionState off = difference(a, b);
+      return std::hypot(std::hypot(off.x, off.v), std::hypot(off.z, off.w)) <= within;
+    });
+  });
+}
+
+/// Whether two motions of scenes that differ by rounding are one, which may begin some forcing periods later, or mirror
+/// images of each other, which have the same numbers: they have a state in common when the phase of the force is 0, or
+/// another one, where no impact is near.
+bool is_same_motion(const BranchPoint& one, const BranchPoint& other, double within) {
+  const bool has_images = is_symmetric(one.scene);
+  return std::ranges::any_of(std::array{0.0, 2.0}, [&](double phase) {
+    const std::vector<attractors::SectionState> states = states_at_phase(other.scene, other.orbit, phase);
+    return meet(states_at_phase(one.scene, one.orbit, phase), states, within) ||
+           (has_images && meet(states_at_phase(one.scene, one.orbit.mirror_image(), phase), states, within));
+  });
+}
 
 }  // namespace
 
@@ -59,13 +82,11 @@ BranchPoint Record::point(const OrbitEquations& equations, const CurvePoint& at)
 }
 
 std::size_t Record::number_of(SpecialKind kind, const BranchPoint& at) const {
-  const attractors::SectionState here = state_at_phase_zero(at.scene, at.orbit);
   const auto known = std::ranges::find_if(found_.special, [&](const SpecialPoint& special) {
     if (special.kind != kind) return false;
     for (const auto& [parameter, unit] : axes_)
       if (std::abs(value_of(special.at.scene, parameter) - value_of(at.scene, parameter)) > 1e-8 * unit) return false;
-    const attractors::SectionState off = difference(here, state_at_phase_zero(special.at.scene, special.at.orbit));
-    return std::hypot(std::hypot(off.x, off.v), std::hypot(off.z, off.w)) <= 1e-5 * speed_unit_;
+    return is_same_motion(special.at, at, 1e-5 * speed_unit_);
   });
   return static_cast<std::size_t>(known - found_.special.begin());
 }

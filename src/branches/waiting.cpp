@@ -1,12 +1,39 @@
 #include "branches/waiting.hpp"
 
+#include <string>
+
+#include "branches/start.hpp"
 #include "branches/walk/graze.hpp"
 
 namespace clatter::branches {
 
 void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Orbit& orbit) {
-  std::erase_if(waiting,
-                [&](const Waiting& one) { return one.special == special && one.orbit.word() == orbit.word(); });
+  const std::string word = orbit.word(), image = orbit.mirror_image().word();
+  std::erase_if(waiting, [&](const Waiting& one) {
+    if (one.special != special) return false;
+    const std::string other = one.orbit.word();
+    return other == word || (other == image && is_symmetric(one.scene));
+  });
+}
+
+Waiting daughter_at(const BranchPoint& at, std::size_t special, std::int64_t generation) {
+  const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.repeated(2);
+  const Vector direction = direction_of_daughter(at.scene, at.orbit, daughter, speed_scale(at.scene, daughter));
+  return {at.scene, daughter, direction, special, generation};
+}
+
+std::optional<CurvePoint> point_near(const OrbitEquations& equations, const Vector& guess, double tolerance) {
+  Vector axis(equations.unknowns(), 0.0);
+  axis.back() = 1;
+  const auto at = corrected(equations, guess, axis, tolerance);
+  const auto along = at ? tangent(equations, *at, axis) : std::nullopt;
+  return along ? std::optional(CurvePoint{*at, *along, 0.0}) : std::nullopt;
+}
+
+bool leaves_range(const CurvePoint& start, const BranchSettings& settings) {
+  const double width = settings.range[1] - settings.range[0], at = start.at.back() * width, rounding = 1e-14 * width;
+  return (start.tangent.back() < 0 && at - settings.range[0] <= rounding) ||
+         (start.tangent.back() > 0 && settings.range[1] - at <= rounding);
 }
 
 std::optional<Vector> first_step(const OrbitEquations& equations, const CurvePoint& start, const Waiting& from,

@@ -12,7 +12,7 @@ namespace clatter::branches {
 struct Waiting {
   FollowedScene scene;
   Orbit orbit;
-  std::optional<Vector> direction{};     ///< along which it begins; nothing: both ways
+  std::optional<Vector> direction{};     ///< along which it begins; nothing: the way on which it is motion
   std::optional<std::size_t> special{};  ///< that it comes from
   std::int64_t generation = 0;
   int heading = 0;                       ///< up or down the parameter; 0: both ways
@@ -24,10 +24,21 @@ struct Waiting {
   /// The heading, up or down the parameter, of the branch that came to the graze it begins at: if it turns back there,
   /// it is born. 0: it goes on whatever its heading is.
   int came = 0;
+  bool passes = false;  ///< its special point lies within it: it is followed both ways
 };
 
-/// A branch that came to its end in a special point needn't begin there any more.
+/// A branch that came to its end in a special point needn't begin there any more, nor does its mirror image.
 void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Orbit& orbit);
+
+/// A branch that is born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
+[[nodiscard]] Waiting daughter_at(const BranchPoint& at, std::size_t special, std::int64_t generation);
+
+/// The point of a branch at the parameter of a guess, with its tangent towards larger values of that.
+[[nodiscard]] std::optional<CurvePoint> point_near(const OrbitEquations& equations, const Vector& guess,
+                                                   double tolerance);
+
+/// Whether a walk begins on a bound of the range, outwards.
+[[nodiscard]] bool leaves_range(const CurvePoint& start, const BranchSettings& settings);
 
 /// The direction from a special point into a branch that begins there, in which it is motion between the stops.
 [[nodiscard]] std::optional<Vector> first_step(const OrbitEquations& equations, const CurvePoint& start,

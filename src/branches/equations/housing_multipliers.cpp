@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "branches/equations/housing_flight.hpp"
 #include "observables/multipliers.hpp"
@@ -62,7 +63,11 @@ struct LeastChange {
 };
 /// By inverse iteration, which converges at once if the value is small.
 LeastChange least_change(const Eigen::MatrixXd& equations) {
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(equations);
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu(equations);
+  if (lu.matrixLU().diagonal().cwiseAbs().minCoeff() == 0) {  // just on the special point: it has no inverse
+    const double rounding = std::numeric_limits<double>::epsilon() * equations.norm();
+    lu.compute(equations + rounding * Eigen::MatrixXd::Identity(equations.rows(), equations.cols()));
+  }
   LeastChange found{0.0, Eigen::VectorXd::Ones(equations.rows()).normalized(), {}};
   for (int iteration = 0; iteration < 200; ++iteration) {
     found.right = lu.solve(found.left).normalized();

@@ -80,6 +80,13 @@ Orbit Orbit::whole() const {
   return orbit;
 }
 
+Orbit Orbit::mirror_image() const {
+  Orbit orbit = *this;
+  for (OrbitImpact& impact : orbit.impacts) impact = later(branches::mirrored(impact), std::numbers::pi);
+  orbit.pressed = branches::mirror_image(pressed);
+  return orbit;
+}
+
 Orbit Orbit::repeated(int times) const {
   const Orbit one = whole();
   Orbit orbit{{}, times * one.half_turns, false};

@@ -73,6 +73,7 @@ struct Orbit {
 
   [[nodiscard]] Orbit from_event(std::size_t i) const;  ///< the same, with event i as its first
   [[nodiscard]] Orbit whole() const;                    ///< both halves, if one is kept
+  [[nodiscard]] Orbit mirror_image() const;             ///< half a forcing period later
   [[nodiscard]] Orbit repeated(int times) const;        ///< of the whole, as if it repeated only after so many periods
   [[nodiscard]] Orbit half_if_same(double tolerance, bool symmetric_scene) const;  ///< kept as a half, if it can be
   [[nodiscard]] Orbit with(const OrbitImpact& impact, std::size_t after) const;

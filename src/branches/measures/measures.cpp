@@ -58,6 +58,12 @@ double hold(const FollowedScene& scene, const OrbitImpact& event) {
   });
 }
 
+/// The state of a mass that stands still from an event on.
+SectionState standing(const FollowedScene& scene, const OrbitImpact& event) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  return {halts(event.event) ? p.middle() + event.place : p.position(event.side), 0.0};
+}
+
 Multipliers multipliers_in_housing(const FollowedScene& scene, const Orbit& orbit) {
   Multipliers found;
   std::size_t i = 0;
@@ -150,16 +156,39 @@ SectionState state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit)
     state = {m.x, m.v};
   });
   if (state) return *state;
-  const SceneNumbers<double> p = numbers_of<double>(scene);
-  const auto standing = [&](const OrbitImpact& impact) -> SectionState {
-    return {halts(impact.event) ? p.middle() + impact.place : p.position(impact.side), 0.0};
-  };
   for (const OrbitImpact& impact : whole.impacts)  // it rests then, or sticks, or is about to
     if (std::ceil(impact.phase / turn) * turn <= impact.phase + impact.rest + hold(scene, impact))
-      return standing(impact);
+      return standing(scene, impact);
   const auto rest = std::ranges::find_if(
       whole.impacts, [](const OrbitImpact& impact) { return impact.rest > 0 || impact.event == EventKind::stick; });
-  return standing(*rest);
+  return standing(scene, *rest);
+}
+
+std::vector<SectionState> states_at_phase(const FollowedScene& scene, const Orbit& orbit, double phase) {
+  constexpr double turn = 2 * std::numbers::pi;
+  std::vector<SectionState> states;
+  const Orbit whole = orbit.whole();
+  const auto each_instant = [phase](double begin, double length, const auto& at) {  // of the phase, rad
+    for (double next = phase + std::ceil((begin - phase) / turn) * turn; next <= begin + length; next += turn) at(next);
+  };
+  if (has_loose_mass(scene.loose)) {
+    const auto frame = frame_of_results(scene);
+    each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
+      each_instant(begin, arc.constants().nu * length,
+                   [&](double at) { states.push_back(state_on(arc, begin, at, frame)); });
+    });
+    return states;
+  }
+  each_flight(scene, whole, [&](const auto& arc, double begin, double length) {
+    each_instant(begin, arc.constants().nu * length, [&](double at) {
+      const auto m = arc.at((at - begin) / arc.constants().nu);
+      states.push_back({m.x, m.v});
+    });
+  });
+  for (const OrbitImpact& impact : whole.impacts)
+    if (const double stands = impact.rest + hold(scene, impact); stands > 0)
+      each_instant(impact.phase, stands, [&](double) { states.push_back(standing(scene, impact)); });
+  return states;
 }
 
 observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& orbit) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "attractors/section_state.hpp"
 #include "branches/equations/equations.hpp"
@@ -22,6 +23,10 @@ struct Multipliers {
 /// motion without events.
 [[nodiscard]] attractors::SectionState state_at(const FollowedScene& scene, const Orbit& orbit, std::size_t i,
                                                 double phase);
+/// The states of a period at which the forcing phase is `phase`; if rounding decides whether an impact comes before
+/// such an instant, one may be missing.
+[[nodiscard]] std::vector<attractors::SectionState> states_at_phase(const FollowedScene& scene, const Orbit& orbit,
+                                                                    double phase);
 /// The state when the forcing phase is 0.
 [[nodiscard]] attractors::SectionState state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit);
 

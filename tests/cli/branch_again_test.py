@@ -1,0 +1,99 @@
+"""Branches that meet: whichever of them `clatter branch` begins with, it finds the others.
+
+Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
+"""
+
+import unittest
+
+import h5py
+import numpy as np
+from branch_runs import BranchRuns
+from command_line import SOURCE
+
+ASYMMETRIC = """[scene]
+h = 0.1
+f = 1
+nu = 1.2
+xs = 0.5
+R = 0.7
+x0 = 0.2
+[branch]
+along = "nu"
+range = [0.8, 1.5]
+switch = 1
+"""
+
+# soft stops, each with a damper of its own; motion over two periods comes to one graze from both sides
+TWICE = """[scene]
+h = 0.20109019556620272
+f = 1.648028596082789
+nu = 3.6742693872108214
+load = -0.3018040671361333
+stiffness = 2.5199765025347447
+stop_lower = -0.20618175416401538
+stop_upper = 0.20618175416401538
+stop_stiffness_lower = 7.249642284575347
+stop_stiffness_upper = 7.249642284575347
+stop_damping_lower = 0.21164094458845611
+stop_damping_upper = 0.3450430629638616
+x0 = 0.015885937676509643
+v0 = 0.5301008600725304
+[branch]
+along = "f"
+range = [0.8240142980413945, 3.296057192165578]
+switch = 1
+"""
+
+
+class BranchAgain(BranchRuns):
+    def found(self, parameter, *words):
+        """Each branch: word, period, symmetry, and the ends of its range of the parameter."""
+        done = self.clatter("branch", *words, "-o", "b.h5", "--force")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        branches = []
+        with h5py.File(self.directory / "b.h5") as file:
+            for number in np.unique(file["branch"][()]):
+                of_branch = file["branch"][()] == number
+                values = file[parameter][()][of_branch]
+                names = tuple(file[name][()][of_branch][of_branch.sum() // 2] for name in ("word", "period_ratio"))
+                branches.append((*names, file["symmetric"][()][of_branch][0] == 1, values.min(), values.max()))
+        return sorted(branches)
+
+    def assert_same(self, one, other):
+        self.assertEqual([branch[:3] for branch in one], [branch[:3] for branch in other])
+        for a, b in zip(one, other):
+            np.testing.assert_allclose(a[3:], b[3:], atol=2e-4)  # a point aside of a birth, or just in it
+
+    def test_the_motion_that_a_branch_was_born_on_is_followed_both_ways(self):
+        found = self.found("nu", self.write("a.toml", ASYMMETRIC))
+        self.assertEqual([branch[1:3] for branch in found], [(1.0, False), (1.0, True)])
+        np.testing.assert_allclose(found[1][3:], (0.8, 1.5), rtol=1e-15)
+        np.testing.assert_allclose(found[0][3:], (1.1531337, 1.3790584), atol=1e-4)
+        below = self.found("nu", self.write("b.toml", ASYMMETRIC.replace("nu = 1.2", "nu = 0.9")))
+        self.assert_same(found, below)
+
+    def test_a_graze_of_motion_over_two_periods_is_one_in_whichever_period_it_comes(self):
+        found = self.found("f", self.write("a.toml", TWICE))
+        self.assertEqual(len(found), 7)
+        with h5py.File(self.directory / "b.h5") as file:
+            self.assertLess(np.bincount(file["branch"][()]).max(), 200)
+            grazes = np.sort(file["special_f"][()][file["special_kind"][()] == b"graze"])
+        self.assertGreater(np.diff(grazes).min(), 1e-6)
+
+    def test_each_branch_leads_to_the_others(self):
+        for config in ("branch", "soft_branch"):
+            path = SOURCE / "configs" / f"{config}.toml"
+            words = ("--set", "branch.switch=2", "--set", "branch.births=symmetry, graze")
+            all_of_them = self.found("nu", path, *words)
+            (self.directory / "b.h5").rename(self.directory / "all.h5")
+            with h5py.File(self.directory / "all.h5") as file:
+                branch = file["branch"][()]
+            for number in np.unique(branch):
+                points = np.flatnonzero(branch == number)
+                middle = points[len(points) // 2]
+                again = self.found("nu", path, *words, "--from", "all.h5", "--where", f"point={middle}")
+                self.assert_same(all_of_them, again)
+
+
+if __name__ == "__main__":
+    unittest.main()
