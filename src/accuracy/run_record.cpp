@@ -87,7 +87,9 @@ std::optional<RunRecord> periodic_reference(const point::Problem& scene, double 
                                             const std::function<bool()>& stopped) {
   if (periods != std::floor(periods)) return std::nullopt;
   const auto find = has_loose_mass(scene.loose) ? point::fixed_point_in_housing : point::fixed_point;
-  const auto exact = find(scene, start_of<double>(scene), static_cast<std::int64_t>(periods), stopped);
+  point::Problem as_computed = scene;  // whose numbers double has rounded before a method, which is judged, begins
+  as_computed.given.reset();
+  const auto exact = find(as_computed, start_of<double>(scene), static_cast<std::int64_t>(periods), stopped);
   if (!exact) return std::nullopt;
   const double duration = periods * period_of(scene.oscillator);
   return point::with_every_effect_and_mass(scene, [&]<Effects effects>() {

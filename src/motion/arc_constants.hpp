@@ -24,7 +24,8 @@ class ArcConstants {
  public:
   using Equation = EquationOfMotion<Number, E>;
 
-  explicit ArcConstants(const Oscillator& oscillator)
+  template <class Other = double>
+  explicit ArcConstants(const BasicOscillator<Other>& oscillator)
       : ArcConstants(Coefficients{}, Number(oscillator.damping), Number(oscillator.forcing),
                      counting_frequency_of(oscillator), Number(oscillator.load), Number(oscillator.stiffness)) {}
 
@@ -144,7 +145,8 @@ class ArcConstants {
   ArcConstants(Coefficients, const Number& damping, const Number& forcing, const Number& frequency,
                const Number& constant_force, const Number& stiffness);
   /// The period of `counting_frequency`, to the digits of the number type.
-  [[nodiscard]] static Number counting_frequency_of(const Oscillator& oscillator) {
+  template <class Other>
+  [[nodiscard]] static Number counting_frequency_of(const BasicOscillator<Other>& oscillator) {
     using std::sqrt;
     if constexpr (E.stiffness)
       if (oscillator.forcing == 0 && oscillator.stiffness > 0) return sqrt(Number(oscillator.stiffness));

@@ -58,7 +58,9 @@ template <class Number, Effects E>
 /// force makes, |f| / max(|k|, 2 h nu, nu^2); without a force those of the start, |x0 - x_stop| and the height to which
 /// its speed carries the mass. Never more than the distance between the stops. It is the same wherever stop and mass
 /// are, and for all starts of a forced scene, whose steady motion must not depend on them.
-[[nodiscard]] inline double displacements_beside(const Scene& scene, Side side) {
+template <class Number = double>
+[[nodiscard]] double displacements_beside(const BasicScene<Number>& given, Side side) {
+  const Scene scene = with_numbers<double>(given);
   const Oscillator& o = scene.oscillator;
   const double gap = scene.stops.upper - scene.stops.lower, k = std::abs(o.stiffness);
   if (o.forcing != 0)
@@ -85,8 +87,10 @@ struct ChatterRule {
   std::array<Number, 2> low;  ///< [stop]: the share
   Number accuracy = epsilon<Number>();
 
-  [[nodiscard]] static ChatterRule of(const Stops& stops) {
-    return {{low_rebound<Number>(stops.restitution_lower), low_rebound<Number>(stops.restitution_upper)}};
+  template <class Given = double>
+  [[nodiscard]] static ChatterRule of(const BasicStops<Given>& stops) {
+    return {{low_rebound<Number>(static_cast<double>(stops.restitution_lower)),
+             low_rebound<Number>(static_cast<double>(stops.restitution_upper))}};
   }
   /// As double sums it, for more digits: enough if the mass is then held, since a rest doesn't depend on its beginning.
   [[nodiscard]] static ChatterRule as_in_double() {

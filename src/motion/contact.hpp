@@ -34,7 +34,8 @@ class GapRule {
   static constexpr std::size_t count = 2;
   static constexpr bool alike = true;
 
-  GapRule(const A& arc, const Stops& stops)
+  template <class Given = double>
+  GapRule(const A& arc, const BasicStops<Given>& stops)
       : arc_(arc), lower_(stops.lower), upper_(stops.upper), gaps_{arc.anchor() - lower_, upper_ - arc.anchor()} {}
 
   /// Exact if the arc is anchored on the stop.
@@ -126,8 +127,8 @@ class GapRule {
 };
 
 /// The first contact of an arc with a stop within a time `horizon` > 0.
-template <class A>
-[[nodiscard]] Crossing<typename A::Number> next_contact(const A& arc, const Stops& stops,
+template <class A, class Given = double>
+[[nodiscard]] Crossing<typename A::Number> next_contact(const A& arc, const BasicStops<Given>& stops,
                                                         const typename A::Number& horizon) {
   return CrossingSearch<A, GapRule<A>>(arc, GapRule<A>(arc, stops), horizon).run();
 }

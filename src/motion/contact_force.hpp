@@ -18,8 +18,8 @@ struct Stop {
   [[nodiscard]] Number into(const Number& y) const { return side == Side::upper ? y : Number(-y); }
 };
 
-template <class Number>
-[[nodiscard]] Stop<Number> stop_at(const Stops& stops, Side side) {
+template <class Number, class Given = double>
+[[nodiscard]] Stop<Number> stop_at(const BasicStops<Given>& stops, Side side) {
   if (side == Side::upper) return {side, Number(stops.upper), {Number(stops.restitution_upper)}};
   return {side, Number(stops.lower), {Number(stops.restitution_lower)}};
 }

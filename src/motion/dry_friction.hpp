@@ -88,8 +88,8 @@ class Slips {
 
 /// In place of it without friction.
 struct NoSlips {
-  template <class Constants>
-  NoSlips(const Constants&, const Friction&, const Stops&) {}
+  template <class Constants, class Given>
+  NoSlips(const Constants&, const BasicFriction<Given>&, const BasicStops<Given>&) {}
   [[nodiscard]] static constexpr bool is_rough() { return false; }
 };
 

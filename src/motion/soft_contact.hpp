@@ -50,8 +50,8 @@ class SoftContact {
 
 /// In place of it if no stop in reach is soft.
 struct NoSoftContact {
-  template <class Constants>
-  NoSoftContact(const Constants&, const Stops&) {}
+  template <class Constants, class Given>
+  NoSoftContact(const Constants&, const BasicStops<Given>&) {}
 };
 
 }  // namespace clatter::motion

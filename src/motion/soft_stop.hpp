@@ -41,8 +41,8 @@ struct Within {
 };
 
 /// Displacement and velocity decide whether the stop pushes: all that is known of a state that comes from elsewhere.
-template <class Number>
-[[nodiscard]] Within<Number> soft_stop_around(const Stops& stops, const Number& x, const Number& v) {
+template <class Number, class Given = double>
+[[nodiscard]] Within<Number> soft_stop_around(const BasicStops<Given>& stops, const Number& x, const Number& v) {
   for (const Side side : {Side::lower, Side::upper}) {
     if (!is_soft(stops, side)) continue;
     const SoftStop<Number> stop = soft_stop_at<Number>(stops, side);

@@ -66,11 +66,11 @@ class CarryingOscillator {
 /// The housing of a loose mass.
 template <class Number>
 struct Walls {
-  template <Effects E>
-  Walls(const ArcConstants<Number, E>& free, const LooseMass& loose)
+  template <Effects E, class Other = double>
+  Walls(const ArcConstants<Number, E>& free, const BasicLooseMass<Other>& loose)
       : rule{Number(loose.ratio), {Number(loose.restitution)}},
         load(loose.load),
-        places{.lower = loose.lower, .upper = loose.upper},
+        places{.lower = static_cast<double>(loose.lower), .upper = static_cast<double>(loose.upper)},
         carrying(free, loose) {}
 
   [[nodiscard]] Number place(Side side) const { return Number(side == Side::upper ? places.upper : places.lower); }
@@ -83,8 +83,8 @@ struct Walls {
 
 /// In place of it without a loose mass.
 struct NoWalls {
-  template <class Constants>
-  NoWalls(const Constants&, const LooseMass&) {}
+  template <class Constants, class Other>
+  NoWalls(const Constants&, const BasicLooseMass<Other>&) {}
 };
 
 /// The place of a loose mass in its housing, z, and z'.

@@ -9,6 +9,7 @@
 #include "point/every_effect.hpp"
 #include "point/exact_motion.hpp"
 #include "point/fixed_point.hpp"
+#include "scene/parameter.hpp"
 #include "steady/contact_at_section.hpp"
 #include "steady/repeat.hpp"
 #include "stepping/exact.hpp"
@@ -25,6 +26,15 @@ constexpr double same_motion = 1e-6;         // a distance of states relative to
 
 double distance(const motion::State<double>& a, const motion::State<double>& b) { return between(a, b).size(); }
 double size_of(const motion::State<double>& state) { return std::max(std::abs(state.x), std::abs(state.v)); }
+
+/// Whether two scenes are given by the same numbers, but for their starts.
+bool agree(const std::optional<GivenScene>& one, const std::optional<GivenScene>& other) {
+  if (!one || !other) return !one && !other;
+  if (one->is_si != other->is_si) return false;
+  for (const Parameter parameter : all_parameters)
+    if (parameter.role() != Role::start && value_of(*one, parameter) != value_of(*other, parameter)) return false;
+  return true;
+}
 
 /// The section of a motion that is nearest to a state; the end if none is near it.
 auto passing(std::vector<motion::State<double>>& sections, const motion::State<double>& state) {
@@ -140,12 +150,12 @@ Decisions::OfScene& Decisions::of(const Problem& problem) {
   const auto same = std::ranges::find_if(scenes_, [&](const OfScene& scene) {
     return scene.oscillator == problem.oscillator && scene.stops == problem.stops &&
            scene.friction == problem.friction && scene.phase == problem.start.phase &&
-           scene.most_impacts == problem.time.max_impacts;
+           scene.most_impacts == problem.time.max_impacts && agree(scene.given, problem.given);
   });
   if (same != scenes_.end()) return *same;
   if (scenes_.size() == most_scenes) scenes_.pop_back();
-  return scenes_.emplace_front(
-      OfScene{problem.oscillator, problem.stops, problem.friction, problem.start.phase, problem.time.max_impacts});
+  return scenes_.emplace_front(OfScene{problem.oscillator, problem.stops, problem.friction, problem.start.phase,
+                                       problem.time.max_impacts, problem.given});
 }
 
 const RestingMotion& Decisions::resting(const Problem& problem, Side side) {

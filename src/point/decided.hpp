@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "point/resting_motion.hpp"
+#include "scene/given_scene.hpp"
 #include "steady/observed_time.hpp"
 
 namespace clatter::point {
@@ -34,6 +35,7 @@ class Decisions {
     Stops stops;
     Friction friction;
     double phase, most_impacts;
+    std::optional<GivenScene> given;
     std::array<std::optional<RestingMotion>, 2> resting{};  ///< [stop]
     std::vector<Sections> orbits{};                         ///< without a rest
   };

@@ -32,7 +32,8 @@ stepping::Limits limits_in_fifty_digits(const Problem& problem) {
 template <Effects E>
 RestingMotion run_from_release(const Problem& problem, Side side) {
   using Kind = RestingMotion::Kind;
-  stepping::Exact<FiftyDigits, E> integrator(problem, problem.stops, limits_in_fifty_digits(problem),
+  const BasicScene<FiftyDigits> scene = in_fifty_digits(problem);
+  stepping::Exact<FiftyDigits, E> integrator(scene, scene.stops, limits_in_fifty_digits(problem),
                                              motion::ChatterRule<FiftyDigits>::as_in_double());
   auto state = integrator.released_from(side);
   if (!state) return {};

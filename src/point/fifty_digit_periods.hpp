@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "point/fixed_point.hpp"
+#include "point/in_fifty_digits.hpp"
 #include "point/rounded.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
@@ -18,7 +19,7 @@ template <Effects E, class Observer>
                                                                     std::int64_t periods,
                                                                     const std::function<bool()>& stopped,
                                                                     Observer& observer) {
-  stepping::Exact<FiftyDigits, E> integrator(problem, limits_of(problem));
+  stepping::Exact<FiftyDigits, E> integrator(in_fifty_digits(problem), limits_of(problem));
   motion::State<FiftyDigits> state = found.start;
   found.sections.clear();
   for (std::int64_t section = 0; section < periods; ++section) {

@@ -19,7 +19,7 @@ struct RunSettings {
 /// One point of a sweep: a scene, and how it is run and observed.
 struct Problem : Scene, RunSettings {
   Units units{};                      ///< of all its numbers
-  std::optional<GivenScene> given{};  ///< the user's numbers, if derivatives by them are asked for
+  std::optional<GivenScene> given{};  ///< the user's numbers, for derivatives by them and for more digits of them
 };
 
 /// The forcing phase theta, as the scene gives it, a time after the start of a problem, rad.

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "scene/collision.hpp"
@@ -35,17 +34,35 @@ struct BasicGivenScene : BasicScene<Number> {
 };
 using GivenScene = BasicGivenScene<double>;
 
+/// Whether a force or a shaking has a frequency.
+template <class Number>
+[[nodiscard]] bool has_frequency(const BasicGivenScene<Number>& given) {
+  const bool is_driven = given.oscillator.forcing != 0 || is_shaken(given.shaking);
+  return is_driven && given.oscillator.frequency != 0;
+}
+
 /// The units in which a point of a sweep is computed: with a spring those of its natural frequency, so that k is 1 or
 /// -1; without one a machine is computed in those of its force's frequency, and a scene in its own.
-[[nodiscard]] Units natural_units(const GivenScene& given);
+template <class Number>
+[[nodiscard]] BasicUnits<Number> natural_units(const BasicGivenScene<Number>& given) {
+  using std::abs, std::sqrt;
+  BasicUnits<Number> units{.mass = given.mass, .is_si = given.is_si};
+  const Number k = abs(given.oscillator.stiffness);
+  if (k != 0)
+    units.time = sqrt(Number(given.mass / k)), units.stiffness = k;
+  else if (given.is_si && has_frequency(given))
+    units.time = 1 / (2 * pi<Number>() * given.oscillator.frequency);
+  if (k == 0) units.stiffness = given.mass / (units.time * units.time);
+  return units;
+}
 
 namespace detail {
 
 /// A given scene in units that may be those of another one.
-template <class Number>
-[[nodiscard]] BasicScene<Number> in_units(const BasicGivenScene<Number>& given, const Units& units) {
+template <class Number, class Unit>
+[[nodiscard]] BasicScene<Number> in_units(const BasicGivenScene<Number>& given, const BasicUnits<Unit>& units) {
   using std::abs, std::sqrt;
-  const double T = units.time;
+  const Unit& T = units.time;
   const Number& m = given.mass;
   const Number force = units.stiffness * (m / units.mass);  // that gives a unit of displacement to k = 1
   BasicScene<Number> scene = given;
@@ -55,7 +72,7 @@ template <class Number>
   scene.friction.static_level = scene.friction.static_level / force;
   scene.loose.ratio = scene.loose.ratio / m;
   scene.loose.load = scene.loose.load * (T * T), scene.loose.velocity = scene.loose.velocity * T;
-  nu = (given.is_si ? 2 * std::numbers::pi : 1.0) * nu * T;
+  nu = (given.is_si ? Unit(2 * pi<Unit>()) : Unit(1)) * nu * T;
   h = h * T + given.damper * T / (2 * m);
   if (!is_always_zero(given.damping_ratio)) h += given.damping_ratio * sqrt(abs(k));
   if (is_finite(given.quality)) h += sqrt(abs(k)) / (2 * given.quality);
@@ -85,10 +102,10 @@ void damp(const Number& kappa, const Number& restitution, Number& zeta) {
 
 /// The scene that is computed, in units that may be those of another one. Each number is a formula of those that were
 /// given, so derivatives by any key of [scene] or [machine] follow from numbers that carry them.
-template <class Number>
-[[nodiscard]] BasicScene<Number> computed(const BasicGivenScene<Number>& given, const Units& units) {
+template <class Number, class Unit>
+[[nodiscard]] BasicScene<Number> computed(const BasicGivenScene<Number>& given, const BasicUnits<Unit>& units) {
   using std::tan;
-  const bool is_in_own_units = !given.is_si && units == Units{};
+  const bool is_in_own_units = !given.is_si && units == BasicUnits<Unit>{};
   BasicScene<Number> scene = given;
   if (!is_in_own_units) scene = detail::in_units(given, units);
   auto& [kinetic, static_level] = scene.friction;  // 0: the static level isn't given
@@ -105,11 +122,43 @@ template <class Number>
 
 /// The scene in its natural units, and these. A machine without a spring has the frequency 1 under a force, as has one
 /// whose frequency isn't given; with it the phase goes on where there is no force.
-[[nodiscard]] std::pair<Scene, Units> computed(const GivenScene& given);
+template <class Number>
+[[nodiscard]] std::pair<BasicScene<Number>, BasicUnits<Number>> computed(const BasicGivenScene<Number>& given) {
+  const BasicUnits<Number> units = natural_units(given);
+  BasicScene<Number> scene = computed(given, units);
+  const bool is_unit = given.oscillator.stiffness == 0 && has_frequency(given);  // of the time, to rounding
+  if (given.is_si && (is_unit || given.oscillator.frequency == 0)) scene.oscillator.frequency = Number(1);
+  return {scene, units};
+}
+
+namespace detail {
+
+/// The scene on a shaken base as the ground sees it (eq. 69).
+template <class Number>
+[[nodiscard]] BasicScene<Number> on_the_ground(BasicScene<Number> scene) {
+  using std::cos, std::sin;
+  const Number theta = scene.start.phase + scene.shaking.phase, &nu = scene.oscillator.frequency;
+  scene.start.displacement += scene.shaking.base * sin(theta);
+  scene.start.velocity += scene.shaking.base * nu * cos(theta);
+  const auto [amplitude, lead] = force_on_ground(scene.oscillator, scene.shaking);
+  scene.oscillator.forcing = amplitude, scene.shaking.lead = lead;
+  scene.start.phase += lead;
+  return scene;
+}
+
+}  // namespace detail
 
 /// The scene in the frame of what is shaken, with the force there in place of the one that was given (eqs. 39 to 41).
 /// With a loose mass, which a moving frame would push, too, it is that of the ground: the shaken base becomes a force.
-[[nodiscard]] Scene in_shaken_frame(Scene scene);
+template <class Number>
+[[nodiscard]] BasicScene<Number> in_shaken_frame(BasicScene<Number> scene) {
+  if (!is_shaken(scene.shaking)) return scene;
+  if (has_loose_mass(scene.loose)) return detail::on_the_ground(std::move(scene));
+  const auto [amplitude, lead] = force_in_frame(scene.oscillator, scene.shaking);
+  scene.oscillator.forcing = amplitude, scene.shaking.lead = lead;
+  scene.start.phase += lead;
+  return scene;
+}
 
 }  // namespace scene
 }  // namespace clatter

@@ -22,7 +22,10 @@ struct BasicLooseMass {
 };
 using LooseMass = BasicLooseMass<double>;
 
-[[nodiscard]] constexpr bool has_loose_mass(const LooseMass& loose) { return loose.ratio != 0; }  // NaN keeps it
+template <class Number = double>
+[[nodiscard]] constexpr bool has_loose_mass(const BasicLooseMass<Number>& loose) {
+  return loose.ratio != 0;  // NaN keeps it
+}
 
 }  // namespace scene
 }  // namespace clatter

@@ -21,8 +21,10 @@ struct BasicOscillator {
 using Oscillator = BasicOscillator<double>;
 
 /// The natural frequency of the spring, |k|^(1/2); of an unstable one (k < 0) the rate at which motion departs.
-[[nodiscard]] inline double natural_frequency(const Oscillator& oscillator) {
-  return std::sqrt(std::abs(oscillator.stiffness));
+template <class Number = double>
+[[nodiscard]] Number natural_frequency(const BasicOscillator<Number>& oscillator) {
+  using std::abs, std::sqrt;
+  return sqrt(Number(abs(oscillator.stiffness)));
 }
 
 /// The displacement at which the spring balances the load; 0 without a spring.
@@ -44,9 +46,10 @@ using Oscillator = BasicOscillator<double>;
 }
 
 /// The frequency of the periods in which a run is counted: nu under forcing, else that of the spring, 1 if it has none.
-[[nodiscard]] inline double counting_frequency(const Oscillator& oscillator) {
-  if (oscillator.forcing != 0.0) return oscillator.frequency;
-  return oscillator.stiffness > 0.0 ? natural_frequency(oscillator) : 1.0;
+template <class Number = double>
+[[nodiscard]] Number counting_frequency(const BasicOscillator<Number>& oscillator) {
+  if (oscillator.forcing != 0) return oscillator.frequency;
+  return oscillator.stiffness > 0 ? natural_frequency(oscillator) : Number(1);
 }
 
 /// Forcing period in tau; without forcing that of the spring, 2 pi at k = 1.

@@ -36,6 +36,25 @@ struct BasicScene {
 };
 using Scene = BasicScene<double>;
 
+/// A scene with numbers of another type, that hold those of its own.
+template <class Number, class Other>
+[[nodiscard]] BasicScene<Number> with_numbers(const BasicScene<Other>& scene) {
+  const auto& [oscillator, stops, start, shaking, friction, loose] = scene;
+  const auto n = [](const Other& number) { return Number(number); };
+  BasicScene<Number> same;
+  same.oscillator = {n(oscillator.damping), n(oscillator.forcing), n(oscillator.frequency), n(oscillator.load),
+                     n(oscillator.stiffness)};
+  same.stops = {
+      n(stops.lower),           n(stops.upper),           n(stops.restitution_lower), n(stops.restitution_upper),
+      n(stops.stiffness_lower), n(stops.stiffness_upper), n(stops.damping_lower),     n(stops.damping_upper)};
+  same.start = {n(start.displacement), n(start.velocity), n(start.phase)};
+  same.shaking = {n(shaking.stops), n(shaking.base), n(shaking.lead), n(shaking.phase)};
+  same.friction = {n(friction.kinetic), n(friction.static_level)};
+  same.loose = {n(loose.ratio), n(loose.lower), n(loose.upper),   n(loose.restitution),
+                n(loose.load),  n(loose.place), n(loose.velocity)};
+  return same;
+}
+
 /// The place about which the mirror image of each motion, half a forcing period later, is a motion too: the equilibrium
 /// of the spring or, without spring and load, the middle between the stops. Nothing if stops or load aren't the same on
 /// both sides of it, to rounding. A loose mass is mirrored about the middle of its walls; with a load of its own, or

@@ -23,7 +23,10 @@ struct BasicShaking {
 };
 using Shaking = BasicShaking<double>;
 
-[[nodiscard]] constexpr bool is_shaken(const Shaking& shaking) { return shaking.stops != 0 || shaking.base != 0; }
+template <class Number = double>
+[[nodiscard]] constexpr bool is_shaken(const BasicShaking<Number>& shaking) {
+  return shaking.stops != 0 || shaking.base != 0;
+}
 
 /// A force that leads another phase.
 template <class Number>

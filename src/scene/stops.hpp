@@ -43,7 +43,8 @@ template <class Number>
   if (side == Side::lower) return is_finite(stops.lower) && is_finite(stops.stiffness_lower);
   return side == Side::upper && is_finite(stops.upper) && is_finite(stops.stiffness_upper);
 }
-[[nodiscard]] inline bool has_soft_stop(const Stops& stops) {
+template <class Number = double>
+[[nodiscard]] bool has_soft_stop(const BasicStops<Number>& stops) {
   return is_soft(stops, Side::lower) || is_soft(stops, Side::upper);
 }
 

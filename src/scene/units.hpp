@@ -11,14 +11,16 @@ inline namespace scene {
 
 /// The units that a problem is computed in, in those of the user; displacements keep their unit. A scene with k = 1 is
 /// computed as it is.
-struct Units {
-  double time = 1.0;       ///< one unit of computed time: s of a machine, > 0
-  double mass = 1.0;       ///< the mass: kg of a machine, > 0
-  double stiffness = 1.0;  ///< stiffness that is computed as 1: N/m of a machine, > 0
-  bool is_si = false;      ///< the user's units are those of the SI, frequencies in cycles
+template <class Number>
+struct BasicUnits {
+  Number time{1.0};       ///< one unit of computed time: s of a machine, > 0
+  Number mass{1.0};       ///< the mass: kg of a machine, > 0
+  Number stiffness{1.0};  ///< stiffness that is computed as 1: N/m of a machine, > 0
+  bool is_si = false;     ///< the user's units are those of the SI, frequencies in cycles
 
-  friend constexpr bool operator==(const Units&, const Units&) = default;
+  friend constexpr bool operator==(const BasicUnits&, const BasicUnits&) = default;
 };
+using Units = BasicUnits<double>;
 
 namespace detail {
 

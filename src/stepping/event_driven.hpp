@@ -20,7 +20,8 @@ class EventDriven : public LoosePhases<Method, N, E> {
   using Number = N;
 
   /// Looks for contacts with the stops in reach only.
-  EventDriven(const Scene& scene, const Stops& in_reach, const Limits& limits, const motion::ChatterRule<Number>& rule)
+  EventDriven(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits,
+              const motion::ChatterRule<Number>& rule)
       : Base(scene, in_reach, limits),
         low_{low_beside(scene, Side::lower, rule), low_beside(scene, Side::upper, rule)},
         chatter_accuracy_(rule.accuracy) {}
@@ -138,7 +139,8 @@ class EventDriven : public LoosePhases<Method, N, E> {
     if (stop.into(state.v) > 0) state.v = stop.law.after(state.v);
     if (state.v == 0) state.v = 0;  // no negative zero
   }
-  [[nodiscard]] static Number low_beside(const Scene& scene, Side side, const motion::ChatterRule<Number>& rule) {
+  [[nodiscard]] static Number low_beside(const BasicScene<Number>& scene, Side side,
+                                         const motion::ChatterRule<Number>& rule) {
     return E.rest ? Number(rule.low[index_of(side)] * motion::displacements_beside(scene, side)) : Number(0);
   }
   [[nodiscard]] std::optional<Number> chatter_time(const motion::State<Number>& state,

@@ -13,13 +13,18 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
   using Number = N;
   static constexpr bool in_closed_form = true;
 
-  explicit Exact(const Scene& scene, const Limits& limits = {}) : Exact(scene, scene.stops, limits) {}
+  explicit Exact(const BasicScene<Number>& scene, const Limits& limits = {}) : Exact(scene, scene.stops, limits) {}
+  /// Of a scene with numbers of another type.
+  template <class Other>
+  explicit Exact(const BasicScene<Other>& scene, const Limits& limits = {})
+      : Exact(with_numbers<Number>(scene), limits) {}
 
   /// Looks for contacts with the stops in reach only.
-  Exact(const Scene& scene, const Stops& in_reach, const Limits& limits = {})
+  Exact(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits = {})
       : Exact(scene, in_reach, limits, motion::ChatterRule<Number>::of(scene.stops)) {}
 
-  Exact(const Scene& scene, const Stops& in_reach, const Limits& limits, const motion::ChatterRule<Number>& rule)
+  Exact(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits,
+        const motion::ChatterRule<Number>& rule)
       : EventDriven<Exact, N, E>(scene, in_reach, limits, rule) {}
 
   /// The arc that begins with `start`, and its first contact, or its end at the horizon.

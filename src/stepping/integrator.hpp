@@ -33,7 +33,7 @@ class IntegratorBase {
   static constexpr Effects effects = E;
 
   /// Looks for contacts with the stops in reach only.
-  IntegratorBase(const Scene& scene, const Stops& in_reach, const Limits& limits)
+  IntegratorBase(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits)
       : constants_(scene.oscillator),
         stops_(in_reach),
         soft_(constants_, stops_),
@@ -52,7 +52,7 @@ class IntegratorBase {
   }
 
   [[nodiscard]] const motion::ArcConstants<Number, E.arc()>& constants() const { return constants_; }
-  [[nodiscard]] const Stops& stops() const { return stops_; }  ///< the stops in reach
+  [[nodiscard]] const BasicStops<Number>& stops() const { return stops_; }  ///< the stops in reach
   /// Forcing period in tau; without forcing 2 pi.
   [[nodiscard]] const Number& period() const { return constants_.period; }
   [[nodiscard]] double impacts() const { return impacts_; }          ///< impacts simulated so far
@@ -77,6 +77,8 @@ class IntegratorBase {
 
   /// Whether there is dry friction.
   [[nodiscard]] bool is_rough() const { return slips_.is_rough(); }
+  /// The static level of the friction.
+  [[nodiscard]] Number static_level() const requires(E.friction) { return slips_.static_level; }
   /// The friction, and the stop if there is one, that holds a mass at x' = 0; nothing: it moves on.
   [[nodiscard]] std::optional<motion::Holding<Number>> held(const motion::State<Number>& state) const
       requires(E.friction) {
@@ -159,8 +161,8 @@ class IntegratorBase {
                   Observer& observer) const {
     if constexpr (requires { observer.touch(motion::Touch{}); })
       observer.touch(motion::Touch{time(state, origin), state.within, static_cast<double>(state.v),
-                                   state.within == Side::upper ? stops_.upper : stops_.lower, from_outside,
-                                   static_cast<double>(state.phase_turns)});
+                                   static_cast<double>(state.within == Side::upper ? stops_.upper : stops_.lower),
+                                   from_outside, static_cast<double>(state.phase_turns)});
   }
   template <class Observer>
   void show_separation(const motion::State<Number>& state, Side side, std::int64_t origin, Observer& observer) const {
@@ -193,7 +195,7 @@ class IntegratorBase {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   motion::ArcConstants<Number, E.arc()> constants_;
-  Stops stops_;
+  BasicStops<Number> stops_;
   [[no_unique_address]] std::conditional_t<E.soft, motion::SoftContact<Number>, motion::NoSoftContact> soft_;
   [[no_unique_address]] std::conditional_t<E.friction, motion::Slips<Number, E.arc()>, motion::NoSlips> slips_;
   double budget_;

@@ -21,7 +21,7 @@ class LoosePhases : public SoftPhases<Method, N, E> {
  public:
   using Number = N;
 
-  LoosePhases(const Scene& scene, const Stops& in_reach, const Limits& limits)
+  LoosePhases(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits)
       : Base(scene, in_reach, limits), walls_(this->constants(), scene.loose) {}
 
  protected:

@@ -15,7 +15,7 @@ class SoftPhases : public Flights<Method, N, E> {
  public:
   using Number = N;
 
-  SoftPhases(const Scene& scene, const Stops& in_reach, const Limits& limits)
+  SoftPhases(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits)
       : Base(scene, in_reach, limits), soft_stops_(has_soft_stop(scene.stops)) {}
 
  protected:

@@ -41,7 +41,7 @@ namespace {
 point::Problem problem_of(const GivenScene& given, const point::RunSettings& settings) {
   const auto [scene, units] = clatter::computed(given);
   point::Problem problem{scene, settings, units};
-  if (!settings.observe.sensitivity.empty()) problem.given = given;
+  problem.given = given;
   problem.time.duration /= units.time;
   problem.observe.base_frequency *= units.is_si ? 2 * std::numbers::pi * units.time : units.time;
   enter_shaken_frame(problem);
