@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "math/number.hpp"
+#include "scene/creep.hpp"
 
 namespace clatter::attractors {
 namespace {
@@ -25,12 +26,18 @@ bool is_possible(const point::Problem& problem, const Ending& ending) {
          is_inside(problem, ending.state);
 }
 
-/// A mass that friction holds for good.
-Motion stuck(const point::Problem& problem, const SectionState& state) {
-  Motion motion{.periodic = standstill(problem, state.x), .state = state, .sticks = true};
+/// A mass that friction holds for good, or that creeps to the edge of the band in which it does.
+Motion stuck(const point::Problem& problem, const SectionState& state, Side creeps_to = Side::none) {
+  Motion motion{.periodic = standstill(problem, state.x), .state = state};
+  motion.sticks = creeps_to == Side::none, motion.creeps_to = creeps_to;
   motion.periodic->word = observables::ImpactWord::stuck;
   if (problem.oscillator.forcing != 0) motion.periodic->regime = "0/1";
   return motion;
+}
+
+/// The edge of the band at which a mass stands: it has crept there, or started there.
+Side edge_under(const Scene& scene, const SectionState& state) {
+  return has_friction(scene.friction) && state.v == 0 ? band_edge_at(scene, state.x) : Side::none;
 }
 
 }  // namespace
@@ -38,6 +45,10 @@ Motion stuck(const point::Problem& problem, const SectionState& state) {
 std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& problem, const Ending& ending) {
   if (!is_possible(problem, ending)) return std::nullopt;
   SectionState state = ending.state;
+  if (const Side edge = edge_under(problem, state); edge != Side::none) {
+    const auto known = passing(state);
+    return known ? known : add(stuck(problem, state, edge));
+  }
   if (state.v == 0 && sticks_for_good(problem, state.x)) return band_ ? band_ : add(stuck(problem, state));
   if (problem.oscillator.forcing == 0) {
     if (const auto known = passing(state)) return known;
@@ -55,7 +66,9 @@ std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& prob
 
 void EnsembleMotions::restore(const point::Problem& problem, const Ending& ending) {
   Motion motion{.state = ending.state};
-  if (ending.state.v == 0 && sticks_for_good(problem, ending.state.x)) {
+  if (const Side edge = edge_under(problem, ending.state); edge != Side::none) {
+    motion = stuck(problem, ending.state, edge);
+  } else if (ending.state.v == 0 && sticks_for_good(problem, ending.state.x)) {
     motion = stuck(problem, ending.state);
   } else if (problem.oscillator.forcing == 0) {
     motion.periodic = standstill(problem, ending.state.x);

@@ -25,6 +25,7 @@ struct Motion {
   VisitedCells cells{};                      ///< of motion without a period
   bool symmetric = false;                    ///< motion without a period visits the cells of its mirror image
   bool sticks = false;                       ///< dry friction holds the mass for good, here or at any place of a band
+  Side creeps_to = Side::none;               ///< the edge of that band to which the mass creeps
 
   /// Whether it goes on alike in a whole band of states, which are one motion.
   [[nodiscard]] bool is_band() const { return sticks || (periodic && periodic->floats); }

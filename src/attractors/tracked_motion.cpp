@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "math/number.hpp"
+#include "scene/creep.hpp"
 
 namespace clatter::attractors {
 namespace {
@@ -47,7 +48,7 @@ double place_of_rest(const point::Problem& from, const point::Problem& to, doubl
 
 TrackedMotion::TrackedMotion(const point::Problem& problem, const Motion& motion)
     : at_(problem), state_(motion.state), periods_(motion.periods()), symmetric_(motion.symmetric) {
-  sticks_ = motion.sticks;
+  sticks_ = motion.sticks, creeps_to_ = motion.creeps_to;
   if (!motion.periodic) return;
   const PeriodicMotion& periodic = *motion.periodic;
   floats_ = periodic.floats;
@@ -66,6 +67,9 @@ bool TrackedMotion::follow(const point::Problem& to) {
   if (sticks_) {  // perhaps elsewhere in its band
     if (!sticks_for_good(to, state_.x)) state_.x = equilibrium_of(to.oscillator);
     followed = sticks_for_good(to, state_.x);
+  } else if (creeps_to_ != Side::none) {
+    state_.x = edge_of_band(to, creeps_to_, state_.x).value_or(state_.x);
+    followed = band_edge_at(to, state_.x) == creeps_to_;
   } else if (floats_) {  // perhaps elsewhere in its housing
     followed = may_float(to);
   } else if (to.oscillator.forcing == 0 || at_.oscillator.forcing == 0) {
@@ -140,7 +144,7 @@ std::optional<std::size_t> TrackedMotion::among(const EnsembleMotions& motions) 
     const auto met = motions.visiting(states_);
     return met && motions.motions()[*met].symmetric == symmetric_ ? met : std::nullopt;
   }
-  if (at_.oscillator.forcing == 0) return motions.passing(state_);
+  if (at_.oscillator.forcing == 0 || creeps_to_ != Side::none) return motions.passing(state_);
   const auto there = state_after(started(at_, state_, 2 * pi<double>() * phase_turns_), 1 - phase_turns_);
   return there ? motions.passing(after_impact(at_, *there, size_)) : std::nullopt;
 }

@@ -39,6 +39,7 @@ class TrackedMotion {
   double size_ = 0.0;
   bool symmetric_ = false;              ///< of motion without a period
   bool sticks_ = false;                 ///< friction holds the mass for good
+  Side creeps_to_ = Side::none;         ///< the edge of the band in which friction holds the mass
   bool floats_ = false;                 ///< no wall meets the loose mass
   bool lost_ = false;                   ///< it couldn't be brought to its section
   std::vector<SectionState> states_{};  ///< of motion without a period at phase 0, at these parameters

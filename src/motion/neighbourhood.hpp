@@ -36,7 +36,7 @@ class Neighbourhood {
     const double from = std::max(0.0, clear_from_ - begin);
     if (approached_ == Side::none && from < length) clear(arc, begin, from, length);
     advance(arc.constants(), length);
-    force_ = arc.constants().force(arc.phase_after(length).sine);
+    force_ = arc.constants().force(arc.phase_after(length).sine), friction_ = arc.constants().friction;
   }
   void rest(const Rest&) { holds_ = false; }  // which impacts of a chatter are taken changes with the start
   void impact(const Impact& impact) {
@@ -96,7 +96,8 @@ class Neighbourhood {
   [[nodiscard]] bool rebound(const Impact& impact) {
     const Stop<double> stop = stop_at<double>(stops_, impact.side);
     const double u = std::abs(impact.before), R = stop.law.R, force = force_ - field_.k * impact.position;
-    const double a_before = force - 2 * field_.h * impact.before, a_after = force - 2 * field_.h * impact.after;
+    const double a_before = force - 2 * field_.h * impact.before,
+                 a_after = force - 2 * friction_ - 2 * field_.h * impact.after;
     const double a = std::max(std::abs(a_before), std::abs(a_after)),
                  c = std::max(1.0, std::abs(field_.k)) + 2 * field_.h, wait = 2 * reach_ / u;
     const LocalBounds near = field_.near(u, a, wait);
@@ -155,7 +156,8 @@ class Neighbourhood {
   Side approached_ = Side::none;  ///< the stop that some of the motions may have met already
   double approached_at_ = 0.0;    ///< the time from which they may have
   Field field_{};                 ///< of the last arc
-  double force_ = 0;              ///< at its end
+  double force_ = 0;              ///< at its end,
+  double friction_ = 0;           ///< of which so much is friction
   bool have_met_;                 ///< the stop that the start is on, if it is on one
   bool begun_ = false;
   bool holds_ = true;

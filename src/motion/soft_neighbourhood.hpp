@@ -56,7 +56,7 @@ class SoftNeighbourhood : public Neighbourhood {
   /// Whether the proof holds up to here; not while some of the motions may have had an event that others have not.
   [[nodiscard]] bool holds() const { return Neighbourhood::holds() && clear_from_ <= end_; }
 
- private:
+ protected:
   /// Where the mass is: between the stops, in contact with a soft one, or beyond its position without contact.
   enum Mode : std::uint8_t { unknown, outside, contact, outrun };
 
@@ -81,7 +81,7 @@ class SoftNeighbourhood : public Neighbourhood {
     const auto& constants = arc.constants();
     field_ = mode == contact ? in_its_norm(Field::of(constants)) : Field::of(constants);
     stop_ = soft_stop_at<double>(stops_, side);
-    const double size = size_in(field_) * std::exp(field_.drift * length);
+    const double size = std::max(least_bound_, size_in(field_)) * std::exp(field_.drift * length);
     bound_ = approached_ == Side::none ? size : std::max(bound_, size);
     begun_ = true;
     if (mode_ == unknown) {
@@ -211,6 +211,7 @@ class SoftNeighbourhood : public Neighbourhood {
   SoftStop<double> stop_{};     ///< the one that the mass is beyond, or was last
   Motion<double> last_{};       ///< the end of the last arc
   double bound_ = 0, end_ = 0;  ///< of differences, in the norm of the present field; the time of that end
+  double least_bound_ = 0;      ///< that of differences about an event, which is larger than before or after it
   Mode mode_ = unknown;
   bool leaving_ = false;  ///< the present flight began beyond a soft stop's position
 };

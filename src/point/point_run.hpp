@@ -176,12 +176,13 @@ class Point {
   void describe_span() {
     const bool forced = problem_.oscillator.forcing != 0;
     span_.total = observed_.turns * integrator_.period(), span_.turns = observed_.turns;
-    span_.periodic = observed_.status == steady::Status::periodic;
+    span_.periodic = observed_.status == steady::Status::periodic || observed_.status == steady::Status::creeping;
     span_.undecided = observed_.status == steady::Status::undecided;
     span_.transient = observed_.status == steady::Status::transient;
-    span_.stands_still = observed_.found_by == steady::FoundBy::standstill;
+    span_.stands_still = steady::stands_still(observed_.found_by);
     span_.uncertainty = uncertainty();
-    span_.given = problem_.given ? &*problem_.given : nullptr, span_.units = problem_.units;
+    const bool moves_with_keys = observed_.status == steady::Status::creeping;  // the place, though no run gets there
+    span_.given = problem_.given && !moves_with_keys ? &*problem_.given : nullptr, span_.units = problem_.units;
     // a section under a force has the phase of the start
     const double after = forced ? 0.0 : static_cast<double>(observed_.from.periods) * integrator_.period();
     span_.theta = forcing_phase(problem_, after), span_.frame = observed_frame(problem_, after);

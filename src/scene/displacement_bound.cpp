@@ -207,12 +207,25 @@ bool grows_at_resonance(const Scene& scene) {
 
 namespace {
 
+/// Whether undamped motion without stops grows for ever at resonance though friction brakes it (eq. 78): in each half
+/// period the force adds pi |f|/2 to the part of the velocity that swings with it, and friction takes 2 mu at most. A
+/// mass that doesn't stick any more, by its displacement wherever it turns back, or by a static level as low, grows.
+bool grows_under_friction(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
+  const Oscillator& o = scene.oscillator;
+  const auto [kinetic, static_level] = scene.friction;
+  const double f = std::abs(o.forcing), most = pi<double>() / 4 * f * (1 - rounding), natural = natural_frequency(o);
+  if (!grows_at_resonance(scene) || !(kinetic < most)) return false;
+  if (static_level < most) return true;
+  const double swing = v * phase.sine - natural * (x - equilibrium_of(o)) * phase.cosine;
+  return natural * std::copysign(1.0, o.forcing) * swing - 2 * kinetic > (f + static_level) * (1 + rounding);
+}
+
 /// Whether the mass moves on for ever under friction: once the spring and the load together push it on harder than the
 /// other forces can push it back, the spring, if there is one, only helps.
-bool escapes_friction(const Scene& scene, double x, double v) {
+bool escapes_friction(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
-  if (o.stiffness > 0) return false;
+  if (o.stiffness > 0) return grows_under_friction(scene, x, v, phase);
   const double ahead = constant_force(o, x);
   const bool is_open = ahead > 0 ? std::isinf(stops.upper) : std::isinf(stops.lower);
   const double against = (std::abs(o.forcing) + scene.friction.static_level) * (1 + rounding);
@@ -222,7 +235,7 @@ bool escapes_friction(const Scene& scene, double x, double v) {
 }  // namespace
 
 bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
-  if (has_friction(scene.friction)) return escapes_friction(scene, x, v);
+  if (has_friction(scene.friction)) return escapes_friction(scene, x, v, phase);
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
   if (grows_at_resonance(scene)) return true;

@@ -11,6 +11,7 @@
 #include "steady/forced_search.hpp"
 #include "steady/free_search.hpp"
 #include "steady/loose_search.hpp"
+#include "steady/standing.hpp"
 #include "stepping/integration.hpp"
 
 namespace clatter::steady {
@@ -38,7 +39,8 @@ template <stepping::Integrator I>
       }
     }
     if (escapes(scene, state.x, state.v, integrator.phase(motion::State<double>{}))) return escape(state, settled);
-    if (integrator.sticks_for_good(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill, settled};
+    if constexpr (I::effects.friction)
+      if (auto found = standing(integrator, scene, state, settled, settled)) return std::move(*found);
     if (section == time.max_periods) return aperiodic(state, settled, time, rests);
     watch.begin_section();
     const stepping::Outcome outcome = advance_to_section(integrator, state, state.periods, watch);
@@ -66,7 +68,8 @@ template <stepping::Integrator I>
   const bool forced = E.forcing != Forcing::none && scene.oscillator.forcing != 0;
   if (!forced) return FreeSearch(integrator, scene, time, integration.all_effects).run(state);
   if constexpr (E.forcing != Forcing::none) {
-    if (integrator.is_rough()) return find_repetition(integrator, state, scene, time, 0);
+    const bool by_shortcuts = I::in_closed_form && integration.shortcuts && !integration.all_effects;
+    if (integrator.is_rough() && !by_shortcuts) return find_repetition(integrator, state, scene, time, 0);
     if (integration.all_effects)
       return find_repetition(integrator, state, scene, time, last_look(scene.oscillator, time.max_periods));
     if constexpr (I::in_closed_form)
@@ -76,8 +79,7 @@ template <stepping::Integrator I>
   return {};
 }
 
-/// The time to observe of a scene that starts from `state`. General methods take no shortcut, nor does motion under dry
-/// friction, of which no closed form and no neighbourhood is proved. Nor does a run with all
+/// The time to observe of a scene that starts from `state`. General methods take no shortcut. Nor does a run with all
 /// effects, which others are compared with: it simulates all of max_periods and looks for a repeat only at their end.
 template <stepping::Integrator I>
 [[nodiscard]] ObservedTime find_steady(I& integrator, const motion::State<double>& state, const Scene& scene,

@@ -17,6 +17,7 @@
 #include "steady/contact_at_section.hpp"
 #include "steady/doubt.hpp"
 #include "steady/observed_time.hpp"
+#include "steady/standing.hpp"
 #include "steady/stroboscopic_map.hpp"
 #include "steady/time_settings.hpp"
 #include "stepping/exact.hpp"
@@ -24,7 +25,8 @@
 namespace clatter::steady {
 
 /// Whether the search itself or lanes advance a motion from one stroboscopic section to the next. In lanes a forcing
-/// period costs so little that plain repetition is quickest unless states contract slowly.
+/// period costs so little that plain repetition is quickest unless states contract slowly. Under dry friction, whose
+/// reversals and sticks make most motions settle soon, it is tried first, too.
 enum class AdvancedBy : std::uint8_t { search, lanes };
 
 /// Finds the steady state of forced motion, section by section, in as few forcing periods as possible: in closed form
@@ -38,6 +40,7 @@ class ForcedSearch {
         scene_(scene),
         time_(time),
         in_lanes_(advanced_by == AdvancedBy::lanes),
+        is_rough_(integrator.is_rough()),
         coasting_(integrator, scene, time.tolerance),
         log_area_of_damping_(-2 * integrator.constants().h * integrator.period()),
         repeat_(time.tolerance, in_lanes_ ? 4 : 1),
@@ -70,6 +73,8 @@ class ForcedSearch {
     const bool stays = stays_in_contact(state), last = section_ == time_.max_periods;
     const std::size_t n = repeats(state);
     if (n > 0 && !stays) return repetition(n);
+    if constexpr (E.friction)
+      if (auto found = standing(integrator_, scene_, state, settled(), simulated())) return found;
     if (n > 0) in_contact_for_ = n;
     if (last && stays && in_contact_for_ > 0) return repetition(in_contact_for_);
     if (last) return aperiodic(state, simulated(), time_, rests_);
@@ -134,7 +139,8 @@ class ForcedSearch {
     }
     const double log_area = section_ > 0 ? passages_[index(1)].log_area + log_area_of_damping_ : 0.0;
     const auto [x, v, z, w] = beyond_contact_({state.x, state.v});
-    const std::size_t n = repeat_.add(x, v, log_area);
+    const double size = is_rough_ && section_ > 0 ? passages_[index(1)].size : 0.0;  // a mass may stick near 0
+    const std::size_t n = repeat_.add(x, v, log_area, size);
     if (repeat_.confirms()) look_until_ = section_ + looked_at;
     if (!in_lanes_ || (n == 0 && closing_in_ == 0)) return n;
     if (closing_in_ == 0) closing_in_ = n, closest_ = std::numeric_limits<double>::infinity();
@@ -179,7 +185,7 @@ class ForcedSearch {
   /// Whether the last forcing period was spent in one contact. Its motion may be small beside the displacement that
   /// repeats are told by, so it isn't told by them.
   [[nodiscard]] bool stays_in_contact(const motion::State<double>& state) const {
-    if (!E.soft || section_ == 0) return false;
+    if (!E.soft || is_rough_ || section_ == 0) return false;
     const motion::Within<double> within = contact_of(state);
     const std::uint64_t itinerary = in_lanes_ ? 0 : PassageObserver::itinerary_in_contact(within.side);
     return within.side != Side::none && within.pressed && passages_[index(1)].itinerary == itinerary;
@@ -188,6 +194,7 @@ class ForcedSearch {
   /// The steady motion in contact with a soft stop, if the stop pushes for ever: if its force on the balanced mass is
   /// larger than the forces that response and transient can take from it. The transient's energy norm never grows.
   [[nodiscard]] std::optional<ObservedTime> pressed(const motion::State<double>& state) const {
+    if (is_rough_) return std::nullopt;
     const motion::Within<double> within = contact_of(state);
     if (within.side == Side::none || !within.pressed) return std::nullopt;
     const auto stop = motion::soft_stop_at<double>(integrator_.stops(), within.side);
@@ -229,6 +236,7 @@ class ForcedSearch {
   [[nodiscard]] bool pays() const {
     if (closing_in_ > 0) return false;
     if (in_lanes_) return section_ >= 64 && ((section_ & (section_ - 1)) == 0 || section_ + 1 == time_.max_periods);
+    if (is_rough_) return section_ >= 64 && section_ % 16 == 0;
     return section_ <= long_settling || section_ % 8 == 0;
   }
 
@@ -253,7 +261,7 @@ class ForcedSearch {
     for (std::size_t n = repeat_.next_within(nearest_first, 1); n > 0; n = repeat_.next_within(nearest_first, n + 1)) {
       const double now = repeat_.distance_over(n);
       if (!(now <= near_enough_[n] && now > 8 * epsilon<double>() && now < repeat_.distance_over(n, n))) continue;
-      if (in_lanes_ && repeats_soon(n)) continue;
+      if ((in_lanes_ || is_rough_) && repeats_soon(n)) continue;
       bool same = true, meets = false;
       for (std::size_t i = 1; same && i <= n && n + i < kept; ++i)
         same = passages_[index(i)].itinerary == passages_[index(n + i)].itinerary,
@@ -283,6 +291,7 @@ class ForcedSearch {
   const Scene& scene_;
   TimeSettings time_;
   bool in_lanes_;
+  bool is_rough_;
   Coasting<E> coasting_;
   double log_area_of_damping_;   ///< logarithm of the factor by which a forcing period shrinks areas without impacts
   bool samples_ = false;         ///< lanes: sections have been left out before this one

@@ -19,13 +19,20 @@ enum class FoundBy : std::uint8_t {
   repetition,   ///< the state came back
   standstill,   ///< nothing moves any more
   nothing,      ///< the motion doesn't repeat, or the point has failed
-  rests         ///< no repeat among those that are looked for, but a stop releases the mass time and again
+  rests,        ///< no repeat among those that are looked for, but a stop releases the mass time and again
+  creep         ///< it is proved to come ever closer to where dry friction holds the mass
 };
 
 /// Names for output, in the order of FoundBy.
-inline constexpr std::array<const char*, 8> found_by_names{
+inline constexpr std::array<const char*, 9> found_by_names{
     "transient",  "closed form", "energy",    "Newton's method",
-    "repetition", "standstill",  "no repeat", "probable repeat beyond 64 periods"};
+    "repetition", "standstill",  "no repeat", "probable repeat beyond 64 periods",
+    "creep"};
+
+/// Whether a mass of which an end is observed stands.
+[[nodiscard]] constexpr bool stands_still(FoundBy found_by) {
+  return found_by == FoundBy::standstill || found_by == FoundBy::creep;
+}
 
 /// The time that is observed: its first state, its length, and the kind of its motion.
 struct ObservedTime {

@@ -15,6 +15,7 @@ enum class Status : std::uint8_t {
   transient = 2,
   grazing = 3,    ///< periodic, but touches a stop within rounding: its stability doesn't exist
   undecided = 4,  ///< rounding decides its period: so much does it stretch changes, and 50 digits don't tell either
+  creeping = 5,   ///< comes ever closer, ever more slowly, to a place at which dry friction holds it, and never there
   event_budget = 16,
   not_finite = 17,
   unresolved = 18,
@@ -28,12 +29,13 @@ struct StatusName {
 };
 
 /// Every status, in the order of its numbers.
-inline constexpr std::array<StatusName, 9> status_names{
+inline constexpr std::array<StatusName, 10> status_names{
     {{Status::periodic, "periodic", "repeats; one period is observed"},
      {Status::aperiodic, "aperiodic", "did not repeat within max_periods; a window is observed"},
      {Status::transient, "transient", "was observed from the start"},
      {Status::grazing, "grazing", "is periodic but touches a stop, so its derivatives don't exist"},
      {Status::undecided, "undecided", "has no known period: rounding would decide it, even in 50 digits"},
+     {Status::creeping, "creeping", "creeps ever more slowly to a place where dry friction holds it; that is observed"},
      {Status::event_budget, "event_budget", "failed: more than max_impacts"},
      {Status::not_finite, "not_finite", "failed: numbers beyond the range of double"},
      {Status::unresolved, "unresolved", "failed: lengths or times too far apart for double"},

@@ -8,7 +8,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "motion/soft_neighbourhood.hpp"
+#include "motion/rough_neighbourhood.hpp"
 #include "steady/contraction.hpp"
 #include "steady/map_orbit.hpp"
 #include "steady/passage_observer.hpp"
@@ -121,8 +121,7 @@ class StroboscopicMap {
     const ContractionNorm measure(orbit.derivative());
     const double rounding = 64 * epsilon<double>() * size_of(start);
     const double radius = measure.of(between(start, motion)) * (1 + 1e-9) + rounding;
-    std::conditional_t<E.soft, motion::SoftNeighbourhood, motion::Neighbourhood> neighbourhood(
-        integrator_.stops(), measure.disc(radius), rounding);
+    auto neighbourhood = neighbourhood_of(measure.disc(radius), rounding);
     std::optional<MapOrbit> attractor = follow(start, orbit.periods, neighbourhood);
     if (!attractor || !neighbourhood.holds()) return std::nullopt;
     const double left =
@@ -132,6 +131,18 @@ class StroboscopicMap {
                           -std::log(spectral_radius(orbit.derivative()));
     attractor->settling = static_cast<double>(orbit.periods) * (1 + std::max(0.0, rounds));
     return attractor;
+  }
+
+  /// The proof for the motions of an ellipse.
+  [[nodiscard]] auto neighbourhood_of(const motion::Ellipse& start, double rounding) const {
+    const Stops& stops = integrator_.stops();
+    if constexpr (E.friction) {
+      return motion::RoughNeighbourhood(stops, start, rounding, integrator_.static_level());
+    } else if constexpr (E.soft) {
+      return motion::SoftNeighbourhood(stops, start, rounding);
+    } else {
+      return motion::Neighbourhood(stops, start, rounding);
+    }
   }
 
   stepping::Exact<double, E>& integrator_;

@@ -74,5 +74,33 @@ TEST(Sticking, mirror_images_of_motion_that_sticks_are_told_apart) {
   EXPECT_EQ(std::ranges::count(numbers, undecided), 0);
 }
 
+/// Friction 1.05 holds a mass against the force 1 from -0.05 to 0.05; from beyond it creeps to either edge.
+TEST(Sticking, each_edge_to_which_the_mass_creeps_is_one_attractor) {
+  point::Problem problem = slide(1.0, 1.05, 1.05);
+  problem.stops = {-1, 1, 0.7, 0.7};
+  const Dataset dataset = attractors_of(problem, {});
+  EXPECT_EQ(of<std::int64_t>(dataset, "motion_points"), (std::vector<std::int64_t>{22, 5, 22}));
+  EXPECT_EQ(of<std::string>(dataset, "motion_word"), (std::vector<std::string>{"(S)", "(S)", "(S)"}));
+  const auto& mirrors = of<std::int32_t>(dataset, "motion_mirror");
+  EXPECT_EQ(mirrors[0], 2), EXPECT_EQ(mirrors[2], 0);
+  const auto& x = of<double>(dataset, "motion_x");
+  EXPECT_NEAR(x[0], -0.05, 1e-15), EXPECT_NEAR(x[2], 0.05, 1e-15);
+  EXPECT_EQ(std::ranges::count(of<std::uint8_t>(dataset, "status"), 5), 44);
+}
+
+/// The edges of the band are (load -+ 0.05)/k.
+TEST(Sticking, the_edges_keep_their_numbers_as_they_move) {
+  point::Problem problem = slide(1.0, 1.05, 1.05);
+  problem.stops = {-1, 1, 0.7, 0.7};
+  const Dataset dataset = attractors_of(problem, {{Parameter("load"), {0.0, 0.1, 0.2}}});
+  const auto& numbers = of<std::int32_t>(dataset, "attractor");
+  const std::size_t n = starts().size();
+  for (std::size_t load = 0; load < 3; ++load) {
+    EXPECT_EQ(numbers[load * n], numbers[0]) << load;
+    EXPECT_EQ(numbers[load * n + n - 1], numbers[n - 1]) << load;
+  }
+  EXPECT_EQ(of<std::string>(dataset, "motion_word").size(), 3);
+}
+
 }  // namespace
 }  // namespace clatter::attractors

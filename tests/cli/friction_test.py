@@ -59,7 +59,37 @@ class Sliding(CommandLine):
         return self.directory / output
 
 
+# The force 1 is held from x = -0.05 to 0.05, and lets the mass slip ever less beyond.
+CREEP = """[scene]
+h = 0.05
+f = 1
+nu = 1
+friction = 1.05
+stop_upper = inf
+[sweep]
+x0 = "linspace(-1, 1, 21)"
+h = [0.05, 0.1]
+[observe]
+extrema = true
+period = true
+attractor = true
+"""
+
+
 class Friction(Sliding):
+    def test_a_mass_that_creeps_has_a_status_of_its_own(self):
+        with h5py.File(self.run_text(CREEP)) as file:
+            status, x = file["status"][()], file["x_max"][()]
+            names = dict(zip(file["status"].attrs["flag_values"], file["status"].attrs["flag_meanings"].split()))
+            self.assertEqual(names[5], "creeping")
+            self.assertEqual(np.count_nonzero(status == 5), 32)
+            self.assertEqual(np.count_nonzero(status == 0), 10)
+            np.testing.assert_allclose(abs(x[status == 5]), 0.05, rtol=1e-14)
+            self.assertEqual(sorted(file["motion_mirror"][()].tolist()), [-1, 0, 2])
+            self.assertTrue(all(word == b"(S)" for word in file["motion_word"][()]))
+        result = self.clatter("run", "a.toml", "-o", "b.h5", "-v")
+        self.assertRegex(result.stdout + result.stderr, r"settled: standstill 10, creep 32\b")
+
     def test_a_sweep_over_it_is_the_same_in_shards(self):
         whole = self.run_text(SLIDE)
         shards = [self.run_text(SLIDE, f"{k}.h5", "--shard", f"{k}/3").name for k in range(3)]
@@ -153,6 +183,15 @@ class Pictures(Sliding):
         figure = pictures.single_figure(output, choice(only=("attractor",)))
         points = [line.get_gid() for line in figure.axes[0].lines if str(line.get_gid()).startswith("motion ")]
         self.assertEqual(points, [f"motion {words.index('-')}"])
+
+    def test_pictures_name_motion_that_creeps(self):
+        output = Output(self.run_text(CREEP))
+        creeps = "creeps to where friction holds it"
+        names = {name_of(output, motion) for motion in range(3)}
+        self.assertEqual(names, {creeps, "held by friction", f"{creeps}, mirrored"})
+        figure = pictures.single_figure(output, choice(only=("period_ratio",)))
+        shown = [text.get_text() for axes in figure.axes for text in axes.get_yticklabels()]
+        self.assertIn("creeping", shown)
 
     def test_pictures_say_how_large_it_is(self):
         point = SLIDE.replace('friction = [0, "6 N", "12 N", "18 N"]\n', "").replace(

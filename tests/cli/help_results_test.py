@@ -129,7 +129,7 @@ class HelpOnResults(CommandLine):
             self.assertIn(words, text)
         guide = (SOURCE / "src" / "results" / "README.md").read_text(encoding="utf-8")
         rows = re.findall(r"^\| (\d+) \| `(\w+)` \| ([^;:(|]+)", guide, re.MULTILINE)
-        self.assertEqual(len(rows), 9)
+        self.assertEqual(len(rows), 10)
         for value, name, meaning in rows:
             self.assertRegex(text, rf"(?m)^  {value} {name} +the point {meaning.strip().split()[0]}")
 

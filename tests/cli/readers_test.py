@@ -29,6 +29,7 @@ FLAGS = {
     2: "transient",
     3: "grazing",
     4: "undecided",
+    5: "creeping",
     16: "event_budget",
     17: "not_finite",
     18: "unresolved",

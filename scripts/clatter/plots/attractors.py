@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib import colors
 
-from .data import ESCAPED, FIRST_FAILURE, has_failed
+from .data import CREEPING, ESCAPED, FIRST_FAILURE, has_failed
 from .maps import OLIVE, class_map, edges_between, name_colours, name_panel
 from .scales import shown_values, tidy_ticks
 from .names import NO_CONTACT, STUCK, has_impacts, label, number, plain, short_word, symbol
@@ -34,7 +34,10 @@ def words_of(output, motion):
     if output.values("motion_period_ratio")[motion] == 0:
         return "no period" + ", symmetric" * bool(output.values("motion_symmetric")[motion] == 1)
     if word in (*NO_CONTACT, STUCK):
-        return "held by friction" if word == STUCK else "no impacts"
+        if word != STUCK:
+            return "no impacts"
+        creeps = (output.values("status")[output.values("attractor") == motion] == CREEPING).any()
+        return "creeps to where friction holds it" if creeps else "held by friction"
     symmetry = " symmetric" if output.values("motion_symmetric")[motion] == 1 else ""
     return f"{plain(regime)}{symmetry}, {short_word(word)}".replace("inf", "∞").replace("*", "∗")
 

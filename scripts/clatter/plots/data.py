@@ -13,6 +13,7 @@ PAPER = "10.5755/j02.mech.32277"
 ORIGIN = ("clatter_version", "git_commit", "compiler", "source", "config_sha256", "instruction_set")  # attributes
 APERIODIC = 1  # status of motion without a period
 UNDECIDED = 4  # status of motion whose period rounding would decide
+CREEPING = 5  # status of a mass that comes ever closer to where dry friction holds it
 GRAZING = 3  # status of periodic motion without multipliers, since it just touches a stop
 FIRST_FAILURE = 16  # status values from here on have no results
 ESCAPED = 19  # of them, the one that is no failure: nothing brings the mass back

@@ -8,7 +8,7 @@ from matplotlib import cm, colormaps, colors
 from matplotlib.image import AxesImage
 
 from .choice import ChoiceProblem
-from .data import APERIODIC, ESCAPED, FIRST_FAILURE, GRAZING, UNDECIDED, has_failed, lacks_period
+from .data import APERIODIC, CREEPING, ESCAPED, FIRST_FAILURE, GRAZING, UNDECIDED, has_failed, lacks_period
 from .scales import integer_levels, shown_values, tidy_ticks
 from .names import label, number, plain
 from .style import BLUE, CYCLE, GREEN, ORANGE, is_geometric
@@ -18,6 +18,7 @@ MOST_PIXELS = 1200  # along one axis; of more points the nearest to each pixel i
 STRIPE, STROKE, INK = 4.3, 0.7, 170  # points from one stroke of a hatch to the next, their width; opacity of 255
 NO_PERIOD = "#cfcfcf"
 OLIVE = "#6b6b1f"  # escaped: no colour of a scale
+BROWN = "#a9744f"  # creeping: another one
 REGIME_COLOURS = ("#e8f1f8", *CYCLE, "#8c510a", "#80cdc1", "#543005")
 
 # Why a result has no value at a point whose motion is periodic.
@@ -283,6 +284,7 @@ def kind_map(figure, axes, grid, status, ratio):
         ("period 3, …", GREEN, ratio > 2),
         ("no period", ORANGE, status == APERIODIC),
         ("undecided", "#f5cf8e", status == UNDECIDED),
+        ("creeping", BROWN, status == CREEPING),
         ("failed", "black", has_failed(status)),
         ("escaped", OLIVE, status == ESCAPED),
     ]
