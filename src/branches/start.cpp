@@ -186,15 +186,14 @@ void require_levels_of_friction(const FollowedScene& scene, Parameter parameter,
     throw StartError(interval + " reaches below friction; begin it there");
 }
 
-/// Throws StartError at a start at which derivatives by a parameter don't exist, as the formulas change there.
-void require_derivatives(const FollowedScene& scene, Parameter parameter) {
-  const auto [h, f, nu, load, k] = numbers_along(scene, parameter).oscillator;
-  const std::string by = "derivatives by " + std::string(parameter.key()) + " don't exist ",
-                    begin = ", where the formulas change; begin at another " + key_in_section(scene, parameter),
-                    at_critical = scene.given.is_si ? "at critical damping" : "at h^2 = stiffness";
-  const bool is_critical = k == h * h;
-  if (!k.is_constant() && (k == 0 || is_critical)) throw StartError(by + "at 0 and " + at_critical + begin);
-  if (!h.is_constant() && is_critical) throw StartError(by + at_critical + begin);
+/// Throws StartError if a branch along the stiffness is to begin without a spring: the equilibrium, from which the
+/// places on a branch count, goes to infinity there.
+void require_spring(const FollowedScene& scene, Parameter parameter) {
+  const auto& k = numbers_along(scene, parameter).oscillator.stiffness;
+  if (k == 0 && !k.is_constant())
+    throw StartError("places on a branch count from the equilibrium of the spring, and along " +
+                     std::string(parameter.key()) + " that comes from infinity at 0; begin at another " +
+                     key_in_section(scene, parameter));
 }
 
 }  // namespace
@@ -222,7 +221,7 @@ void require_start_in_range(const FollowedScene& scene, Parameter parameter, con
     throw StartError(interval + " reaches the upper stop; end it below stop_upper");
   if (is_place && parameter.side() == Side::upper && range[0] <= stops.lower && std::isfinite(range[0]))
     throw StartError(interval + " reaches the lower stop; begin it above stop_lower");
-  require_derivatives(scene, parameter);
+  require_spring(scene, parameter);
   require_levels_of_friction(scene, parameter, range, interval);
   GivenScene shaken = scene.given;
   set(shaken, parameter, 1.0);

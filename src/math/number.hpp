@@ -20,6 +20,12 @@ template <class Number>
   return std::numeric_limits<Number>::epsilon();
 }
 
+/// A number type that carries derivatives.
+template <class Number>
+concept CarriesDerivatives = requires(const Number& y) {
+  y.is_constant();
+};
+
 /// Whether a number is finite, whatever its derivatives.
 template <class Number>
 [[nodiscard]] bool is_finite(const Number& number) {
@@ -29,7 +35,7 @@ template <class Number>
 /// Whether a number is 0 and, if it carries derivatives, they are 0, too.
 template <class Number>
 [[nodiscard]] constexpr bool is_always_zero(const Number& y) {
-  if constexpr (requires { y.is_constant(); }) return is_always_zero(y.value) && y.is_constant();
+  if constexpr (CarriesDerivatives<Number>) return is_always_zero(y.value) && y.is_constant();
   return y == 0;
 }
 

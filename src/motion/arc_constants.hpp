@@ -8,6 +8,7 @@
 #include "motion/divided_exponentials.hpp"
 #include "motion/equation_of_motion.hpp"
 #include "motion/propagation.hpp"
+#include "motion/smooth_propagator.hpp"
 #include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
 #include "scene/effects.hpp"
@@ -154,6 +155,8 @@ class ArcConstants {
   }
   void set_stiffness(const Number& stiffness);
   [[nodiscard]] Number short_a_minus_one(const Number& s) const;
+  [[nodiscard]] bool is_short(const Number& s) const;
+  [[nodiscard]] Number pulled(const Number& s) const;
   void respond_from_rest(const Number& s, Step<Number>& step) const;
   void respond_away_from_resonance(Step<Number>& step) const;
 
@@ -191,16 +194,25 @@ void ArcConstants<Number, E>::set_stiffness(const Number& stiffness) {
   unbalanced = sprung ? Number(0) : load;
   balance = equilibrium;
   root = k > 0 ? Number(sqrt(abs((natural - h) * (natural + h)))) : norm(h, natural);
+  if (!sprung && h > 0 && !is_always_zero(k)) root = sqrt(h * h - k);  // of k only the derivatives count
   if (E.damping == Damping::light && !(root > 0)) root = epsilon<Number>() * natural;  // h^2 < k by rounding alone
   fast = h + root;
-  slow = sprung ? Number(k / fast) : Number(0);
+  slow = sprung || (fast > 0 && !is_always_zero(k)) ? Number(k / fast) : Number(0);
   if constexpr (E.forcing == Forcing::regular) response = response_to(Number(k - nu * nu), h, f, nu);
   rate = max(nu, max(natural, Number(k > 0 ? 2 * h : fast)));
 }
 
 template <class Number, Effects E>
 Propagator<Number> ArcConstants<Number, E>::propagator(const Number& s) const {
-  using std::cos, std::exp, std::expm1, std::sin;
+  using std::abs, std::cos, std::exp, std::expm1, std::sin;
+  if constexpr (CarriesDerivatives<Number> && E.damping != Damping::none) {
+    const Number square = (k > 0 ? (h - natural) * (h + natural) : h * h - k) * s * s;
+    if (abs(square) <= Number(near_critical)) {
+      Propagator<Number> free = near_critical_propagator(h, k, s, square);
+      free.a_minus_one = is_short(s) ? short_a_minus_one(s) : Number(free.a - 1);
+      return free;
+    }
+  }
   if constexpr (E.damping == Damping::none) {
     const Number half = sin(s / 2), b = 2 * half * cos(s / 2), a_minus_one = -2 * half * half;
     return {1 + a_minus_one, b, 1 + a_minus_one, b, a_minus_one};
@@ -223,8 +235,7 @@ Propagator<Number> ArcConstants<Number, E>::propagator(const Number& s) const {
     const Number b =
         slow_decay * select<Number>(spread > 0, -expm1(-spread) / (2 * root), s);  // root = 0: critical damping
     const Number d = 2 * h * fast_decay - slow * slow * b;                         // 2 h slow - k = slow^2
-    const bool is_short = 8 * h * s <= 1 && (!E.stiffness || 4 * natural * s <= 1);
-    const Number a_minus_one = is_short ? short_a_minus_one(s) : Number(expm1(-slow * s) + slow * b);
+    const Number a_minus_one = is_short(s) ? short_a_minus_one(s) : Number(expm1(-slow * s) + slow * b);
     return {slow_decay + slow * b, b, fast_decay - slow * b, d, a_minus_one};
   }
 }
@@ -237,8 +248,16 @@ Step<Number> ArcConstants<Number, E>::step(const Number& s) const {
   if constexpr (E.forcing == Forcing::secular) respond_from_rest(s, step);
   if constexpr (E.damping == Damping::heavy) step.fast_decay = exp(-fast * s);
   if constexpr (E.stiffness)
-    if (!is_always_zero(unbalanced)) step.pulled = s * s * second_divided_decay(Number(2 * h * s));
+    if (!is_always_zero(unbalanced)) step.pulled = pulled(s);
   return step;
+}
+
+/// Displacement a time s after rest under a unit force that no spring balances (eq. 45).
+template <class Number, Effects E>
+Number ArcConstants<Number, E>::pulled(const Number& s) const {
+  if constexpr (CarriesDerivatives<Number>)
+    if (!is_always_zero(k)) return pulled_by_no_spring(h, k, s);
+  return s * s * second_divided_decay(Number(2 * h * s));
 }
 
 /// Displacement and velocity a time s after rest under a unit force sin(phase): Im(e^{i phase} w(s)) with w of eq. 11,
@@ -273,6 +292,12 @@ void ArcConstants<Number, E>::respond_away_from_resonance(Step<Number>& step) co
   };
   step.displacement = times_unit(turn.cosine_minus_one - free.a_minus_one, turn.sine - nu * free.b);
   step.velocity = times_unit(k * free.b - nu * turn.sine, nu * (1 + turn.cosine_minus_one - free.c));
+}
+
+/// Whether a time is short for the oscillator of heavy damping.
+template <class Number, Effects E>
+bool ArcConstants<Number, E>::is_short(const Number& s) const {
+  return 8 * h * s <= 1 && (!E.stiffness || 4 * natural * s <= 1);
 }
 
 /// A(s) - 1 for a time that is short for the oscillator, though perhaps not for a fast force, by the Taylor series: the

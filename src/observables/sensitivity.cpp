@@ -257,11 +257,9 @@ class Walk {
   }
 };
 
-/// At k = 0 the formulas of arcs change, so that they have no derivative by k; and nothing is known of where a loose
-/// mass that begins would strike.
+/// Nothing is known of where a loose mass that begins would strike.
 bool has_derivative(const BasicScene<Along>& scene) {
-  const auto begins = [](const Along& number) { return number.value == 0 && !number.is_constant(); };
-  return !begins(scene.oscillator.stiffness) && !begins(scene.loose.ratio);
+  return scene.loose.ratio.value != 0 || scene.loose.ratio.is_constant();
 }
 
 Sensitivity::ByKey derivative_by(Parameter key, const Course& course, const ObservedSpan& span,

@@ -34,26 +34,32 @@ struct LeadingForce {
   Number amplitude{}, lead{};
 };
 
+/// The force of two parts, one in phase and one a quarter of a turn ahead. Without the second it keeps its sign, so
+/// that nothing jumps by pi where it passes 0; with derivatives of the second, too, in the same form.
+template <class Number>
+[[nodiscard]] LeadingForce<Number> leading_force(const Number& in_phase, const Number& quadrature) {
+  using std::atan2, std::hypot;
+  if (is_always_zero(quadrature)) return {in_phase, Number(0)};
+  if (quadrature == Number(0)) return {in_phase, quadrature / in_phase};
+  return {hypot(in_phase, quadrature), atan2(quadrature, in_phase)};
+}
+
 /// The force on the mass in the frame of what is shaken: f sin(theta) and the inertia of that frame, with moving stops
 /// the spring and the damper, too, which don't move with them (eqs. 39, 40 and 61).
 template <class Number>
 [[nodiscard]] LeadingForce<Number> force_in_frame(const BasicOscillator<Number>& oscillator,
                                                   const BasicShaking<Number>& shaking) {
-  using std::atan2, std::cos, std::fma, std::hypot, std::sin;
+  using std::cos, std::fma, std::sin;
   const auto& [h, f, nu, load, k] = oscillator;
   const auto& [stops, base, lead, phase] = shaking;
   if (is_always_zero(stops) && is_always_zero(base)) return {f, Number(0)};
   if (!is_always_zero(phase)) {
     const Number P = base * nu * nu - stops * fma(Number(-nu), nu, k), Q = -2 * h * nu * stops;
-    const Number in_phase = f + P * cos(phase) - Q * sin(phase), quadrature = P * sin(phase) + Q * cos(phase);
-    return {hypot(in_phase, quadrature), atan2(quadrature, in_phase)};
+    return leading_force(Number(f + P * cos(phase) - Q * sin(phase)), Number(P * sin(phase) + Q * cos(phase)));
   }
   const Number with_base = fma(Number(base * nu), nu, f);
   if (is_always_zero(stops)) return {with_base, Number(0)};
-  const Number in_phase = with_base - stops * fma(Number(-nu), nu, k);
-  const Number quadrature = -2 * h * nu * stops;
-  if (is_always_zero(quadrature)) return {in_phase, Number(0)};  // a sign, no jump by pi, when the force passes 0
-  return {hypot(in_phase, quadrature), atan2(quadrature, in_phase)};
+  return leading_force(Number(with_base - stops * fma(Number(-nu), nu, k)), Number(-2 * h * nu * stops));
 }
 
 /// The force on the mass in the frame of the ground: f sin(theta), and those of the spring and the damper of a base
@@ -61,14 +67,11 @@ template <class Number>
 template <class Number>
 [[nodiscard]] LeadingForce<Number> force_on_ground(const BasicOscillator<Number>& oscillator,
                                                    const BasicShaking<Number>& shaking) {
-  using std::atan2, std::cos, std::hypot, std::sin;
+  using std::cos, std::sin;
   const auto& [h, f, nu, load, k] = oscillator;
   const Number along = k * shaking.base, across = 2 * h * nu * shaking.base, &phase = shaking.phase;
-  const Number in_phase = f + along * cos(phase) - across * sin(phase),
-               quadrature = along * sin(phase) + across * cos(phase);
-  if (is_always_zero(quadrature)) return {in_phase, Number(0)};
-  if (quadrature == Number(0)) return {in_phase, quadrature / in_phase};  // a sign, too, with derivatives of both
-  return {hypot(in_phase, quadrature), atan2(quadrature, in_phase)};
+  return leading_force(Number(f + along * cos(phase) - across * sin(phase)),
+                       Number(along * sin(phase) + across * cos(phase)));
 }
 
 /// The frame in which displacements and velocities are given: that of what is shaken, or that of the ground.

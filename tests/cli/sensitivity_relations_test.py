@@ -1,7 +1,8 @@
 """Derivatives of periodic motion by keys of the scene: `observe.sensitivity`.
 
 They satisfy what the units of length, time and mass demand of them (Euler's theorem on homogeneous functions), and are
-the limits of differences of runs. Scenes are random; CLATTER_SENSITIVITY is COUNT or COUNT:SEED of them.
+the limits of differences of runs. At values at which a formula branches they are those beside them. Scenes are random;
+CLATTER_SENSITIVITY is COUNT or COUNT:SEED of them.
 """
 
 import math
@@ -10,9 +11,9 @@ import random
 import unittest
 
 import numpy as np
-from derivatives import OF_MACHINE, OF_SCENE, PERIODIC, RESULTS, SETTLE, SIDES, Family, OfScenes
+from derivatives import OF_MACHINE, OF_SCENE, PERIODIC, RESULTS, SETTLE, SIDES, STARTS, Family, OfScenes
 from derivatives import derivative, families, same_motion
-from random_scenes import compliant_scenes, pressing_scenes, random_scenes, rubbed
+from random_scenes import INF, compliant_scenes, pressing_scenes, random_scenes, rubbed
 from scene_runs import STEADY, keys_of, machine_keys
 
 COUNT, _, SEED = os.environ.get("CLATTER_SENSITIVITY", "150").partition(":")
@@ -113,6 +114,122 @@ class OfRandomScenes(OfScenes):
                 self.check(abs(own - one), allowed, f"{result} by friction at 0, {scene}")
                 confirmed += allowed < 1e-3 * abs(own)
         return confirmed
+
+
+def soft(scene, **changes):
+    """The scene with soft stops in place of rigid ones."""
+    sides = [side for side in ("_lower", "_upper") if math.isfinite(getattr(scene, "stop" + side))]
+    stops = {key + side: value for key, value in changes.items() for side in sides}
+    return scene.changed(**{f"stop_stiffness{side}": 40.0 for side in sides}, **stops)
+
+
+def unshaken(scene):
+    return scene.changed(stop_amplitude=0.0, base_amplitude=0.0, stop_phase=0.0, f=scene.f or -0.7)
+
+
+def without_spring(scene):
+    """The scene between two stops, which hold it."""
+    low = -0.5 if math.isinf(scene.stop_lower) else scene.stop_lower
+    high = low + 1.1 if math.isinf(scene.stop_upper) else scene.stop_upper
+    return unshaken(scene).changed(stiffness=0.0, stop_lower=low, stop_upper=high)
+
+
+def dry(scene):
+    return unshaken(scene).changed(friction=0.1 * abs(scene.f or 0.7))
+
+
+# By name: a scene at a value at which a formula branches, the key that has it, the sides to which it may change, a step
+SPECIAL = {
+    "no damping": (lambda s: s.changed(h=0.0), "h", (1,), 1e-9),
+    "no damping nor spring": (lambda s: without_spring(s).changed(h=0.0), "h", (1,), 1e-9),
+    "no spring": (lambda s: without_spring(s).changed(h=max(s.h, 0.1)), "stiffness", (-1, 1), 1e-6),
+    "no spring nor damping": (lambda s: without_spring(s).changed(h=0.0), "stiffness", (-1, 1), 1e-6),
+    "critical damping": (lambda s: unshaken(s).changed(h=1.0, stiffness=1.0), "h", (-1, 1), 1e-9),
+    "critical spring": (lambda s: unshaken(s).changed(h=0.5, stiffness=0.25), "stiffness", (-1, 1), 1e-9),
+    "critical contact": (lambda s: soft(without_spring(s).changed(h=0.0), stop_damping=1.0), "h", (1,), 1e-9),
+    "resonance": (lambda s: unshaken(s).changed(h=0.0, nu=1.0, stiffness=1.0), "nu", (-1, 1), 1e-9),
+    "plastic stop": (lambda s: s.changed(R_upper=0.0, stop_stiffness_upper=INF), "R_upper", (1,), 1e-9),
+    "elastic stop": (lambda s: s.changed(R_upper=1.0, h=max(s.h, 0.05)), "R_upper", (-1,), 1e-9),
+    "undamped contact": (lambda s: soft(s.changed(h=max(s.h, 0.05))), "stop_damping_upper", (1,), 1e-9),
+    "no load": (lambda s: s.changed(load=0.0), "load", (-1, 1), 1e-9),
+    "stop at 0": (lambda s: s.changed(stop_upper=0.0, x0=min(s.x0, 0.0)), "stop_upper", (-1, 1), 1e-9),
+    "stops at rest": (unshaken, "stop_amplitude", (-1, 1), 1e-9),
+    "stops at rest, out of phase": (lambda s: unshaken(s).changed(stop_phase=2.0), "stop_amplitude", (-1, 1), 1e-9),
+    "base at rest": (unshaken, "base_amplitude", (-1, 1), 1e-9),
+    "base at rest, out of phase": (lambda s: unshaken(s).changed(stop_phase=-2.5), "base_amplitude", (-1, 1), 1e-9),
+    "stops in phase": (lambda s: unshaken(s).changed(stop_amplitude=0.1), "stop_phase", (-1, 1), 1e-9),
+    "base in phase": (lambda s: unshaken(s).changed(base_amplitude=-0.2), "stop_phase", (-1, 1), 1e-9),
+    "stops undamped": (lambda s: unshaken(s).changed(stop_amplitude=0.2, h=0.0), "h", (1,), 1e-9),
+    "no force beside a base": (lambda s: unshaken(s).changed(base_amplitude=0.3, f=0.0), "f", (-1, 1), 1e-9),
+    "no friction": (unshaken, "friction", (1,), 1e-9),
+    "equal levels": (lambda s: dry(s).changed(friction_static=dry(s).friction), "friction_static", (1,), 1e-9),
+}
+
+
+class AtSpecialValues(OfScenes):
+    def test_derivatives_where_a_formula_branches_are_those_beside(self):
+        each = max(4, COUNT // 16)
+        known = {}
+        for n, (name, (prepared, key, sides, step)) in enumerate(SPECIAL.items()):
+            draw = random.Random(f"{SEED} {name}")
+            scenes = [scene for scene in random_scenes(12 * each, SEED + 100 + n) if abs(scene.f) >= 0.02]
+            scenes = [within_stops(one) for one in map(prepared, scenes) if is_whole(one, key)][:each]
+            ways = [step * draw.choice(sides) for _ in scenes]
+            near, far = ([within_stops(moved_by(s, key, n * way)) for s, way in zip(scenes, ways)] for n in (1, 2))
+            kinds = {}
+            for some in zip(scenes, near, far):
+                kinds.setdefault(tuple(keys_of(some[1])), []).append(some)
+            known[name] = sum(self.compare(zip(*kind), key, name) for kind in kinds.values())
+        self.assertEqual(self.told(), "")
+        self.assertEqual({name: count for name, count in known.items() if count < 8}, {})
+
+    def compare(self, groups, key, name):
+        """How many derivatives by all keys are the limits of those of scenes one and two steps beside."""
+        scenes, near, far = groups
+        keys = sorted({own for own in keys_of(near[0]) if own not in STARTS} | {key})
+        frame = 'frame = "absolute"\n' if "amplitude" in key or "phase" in key else ""
+        words = "word_sticks = true\n" if "friction" in keys and key != "friction" else ""
+        wanted = f'{STEADY}{frame}{words}sensitivity = "{", ".join(keys)}"\n'
+        here, *beside = (
+            self.program.run(some, SETTLE, wanted, keys_of=lambda s: keys_of_kind(s, near[0]))
+            for some in (scenes, near, far)
+        )
+        known = 0
+        for i, scene in enumerate(scenes):
+            contraction = 1 - abs(complex(here["multiplier_re"][i, 0], here["multiplier_im"][i, 0]))
+            if not all(same_motion(here, i, there, i) for there in beside) or not contraction > 1e-2:
+                continue
+            for result in RESULTS:
+                at, *others = (np.atleast_1d(run[result][i]) for run in (here, *beside))
+                if not all(np.allclose(at, other, rtol=1e-4, atol=1e-6, equal_nan=True) for other in others):
+                    continue  # another motion
+                if frame and at[0] in (scene.stop_lower, scene.stop_upper):
+                    continue  # of several impacts on a stop at rest any may be the farthest once it moves
+                for by in keys:
+                    known += self.compare_one([derivative(run, result, by)[i] for run in (here, *beside)], by, name)
+        return known
+
+    def compare_one(self, derivatives, by, name):
+        """How many of the sides of a result have the derivative that those beside tend to."""
+        known = 0
+        for told, one, two in zip(*map(np.atleast_1d, derivatives)):
+            if math.isnan(one) or math.isnan(two) or not abs(two - one) < 1e-2 * (1 + abs(one)):
+                continue  # none, or beside a fold
+            allowed = 1e-6 * (1 + abs(one)) + abs(two - one)
+            self.check(abs(told - (2 * one - two)), allowed, f"{name}: by {by}, {told}, {one}, {two}")
+            known += 1
+        return known
+
+
+def is_whole(scene, key):
+    """Whether a scene has the stop that a key is of, not beside another one that it would pass."""
+    if key.endswith("_upper") and not math.isfinite(scene.stop_upper):
+        return False
+    rigid = math.isinf(scene.stop_stiffness_upper)
+    if (key == "R_upper" and not rigid) or (key == "stop_damping_upper" and rigid):
+        return False
+    held = math.isfinite(scene.stop_lower) or math.isfinite(scene.stop_upper)
+    return held and scene.stop_lower < scene.stop_upper - 0.05 and scene.stop_lower <= scene.x0
 
 
 def moved_by(scene, key, step):

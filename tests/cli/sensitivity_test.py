@@ -80,6 +80,25 @@ def thrown_speed(f, nu, friction, friction_static, gap):
     return newton(missed, 2.0, 0.6)[1]
 
 
+class WhereFormulasBranch(RunTest):
+    """Values of closed forms in 40 digits, and of runs at 1e-9, at keys that are 0."""
+
+    def slopes(self, key, name, **scene):
+        text = toml(scene=scene, observe={"impacts": True, "sensitivity": quoted(key)})
+        with h5py.File(self.run_clatter(text, name)) as file:
+            self.assertEqual(file["status"][()], PERIODIC)
+            return file["d_impact_speed_d_" + key][()]
+
+    def test_damping_that_begins_without_a_spring(self):
+        ball = {"stiffness": 0, "f": 1, "nu": 1, "xs": 2, "R": 0.6, "v0": 1}
+        np.testing.assert_allclose(self.slopes("h", "ball", **ball), -2.1979907276, rtol=1e-10)
+
+    def test_stops_that_begin_to_move_against_the_force(self):
+        scene = {"h": 0.1, "f": -1, "nu": 1.3, "xs": 0.5, "R": 0.7}
+        found = self.slopes("stop_amplitude", "moves", **scene)
+        np.testing.assert_allclose(found, [-2.3478175, 0.6096951], rtol=1e-6)
+
+
 class ClosedForms(RunTest):
     def run_at(self, values, name="out", **sections):
         keys = ", ".join(key for key in values if key not in STARTS)
