@@ -242,7 +242,7 @@ Config config_of(ParsedConfig parsed) {
   check_alternatives(settings);
   spread_sobol(settings);
   const AxisGroups groups = group_axes(settings);
-  check_walls_and_start(settings, groups);
+  check_housing(settings, groups);
   if (!has_loose_mass(settings)) check_stops_and_start(settings, groups);
   check_soft_stops(settings, groups);
   check_sensitivity(settings);

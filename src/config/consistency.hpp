@@ -57,9 +57,10 @@ void check_alternatives(const Settings& settings);
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 
 /// Throws ConfigError if a loose mass lacks a key that it needs, or something is asked for that it doesn't have; and if
-/// at some point of the sweep its walls are in the wrong order, or it doesn't start between them.
+/// at some point of the sweep it has no wall or no force that it needs, its walls are in the wrong order, or it doesn't
+/// start between them.
 void check_loose_mass(const Settings& settings);
-void check_walls_and_start(const Settings& settings, const AxisGroups& groups);
+void check_housing(const Settings& settings, const AxisGroups& groups);
 
 /// Whether there is a loose mass.
 [[nodiscard]] bool has_loose_mass(const Settings& settings);

@@ -24,7 +24,7 @@ std::optional<Parameter> followed(const Settings& settings) {
   return along != nullptr ? Parameter::of(settings.text("branch", "along")) : std::nullopt;
 }
 
-/// Keys of a loose mass need the mass, and that needs a wall.
+/// Keys of a loose mass need the mass.
 void check_completeness(const Settings& settings) {
   for (const Parameter parameter : all_parameters) {
     const Setting* const given = parameter.is_loose() ? settings.given(parameter) : nullptr;
@@ -34,14 +34,16 @@ void check_completeness(const Settings& settings) {
   if (const auto along = followed(settings); along && along->is_loose() && settings.given(loose_mass) == nullptr)
     fail(settings.find("branch", "along")->location,
          "along = " + in_quotes(along->key()) + " without 'loose_mass'; give that, or follow another key");
-  const Setting* const mass = settings.given(loose_mass);
-  const auto lacks = [&](Parameter wall) {
-    const auto is_infinite = [](double value) { return std::isinf(value); };
-    return settings.given(wall) == nullptr || place_of(settings.given(wall), is_infinite) != nullptr;
-  };
-  if (mass == nullptr || settings.given("loose_gap") != nullptr || !lacks("loose_lower") || !lacks("loose_upper"))
-    return;
-  fail(mass->key_location,
+}
+
+/// There is a wall at every point.
+void check_walls(const Settings& settings, const AxisGroups& groups) {
+  if (settings.given("loose_gap") != nullptr) return;
+  const auto is_infinite = [](double value) { return std::isinf(value); };
+  const std::array without{Condition{settings.given("loose_lower"), is_infinite},
+                           Condition{settings.given("loose_upper"), is_infinite}};
+  if (!point_with_all(settings, groups, without)) return;
+  fail(settings.given(loose_mass)->key_location,
        "'loose_mass' without walls, so that it never strikes; give loose_gap, loose_lower or loose_upper");
 }
 
@@ -65,18 +67,16 @@ void check_main_mass(const Settings& settings) {
     refuse(*place, "a stiffness that is not above 0", "give a spring, since the main mass has no stops");
 }
 
-/// Whether a setting drives the mass at every point.
-bool drives(const Setting* amplitude) {
-  return amplitude != nullptr && std::ranges::none_of(amplitude->numbers(), [](double value) { return value == 0; });
-}
-
-/// Steady motion and sections are those of a force.
-void check_force(const Settings& settings) {
+/// Steady motion and sections are those of a force, or of a base that is shaken, at every point.
+void check_force(const Settings& settings, const AxisGroups& groups) {
   const Setting* const force = settings.given(settings.is_si() ? Parameter("force") : Parameter("f"));
-  if (drives(force) || drives(settings.given("base_amplitude"))) return;
+  const auto is_zero = [](double value) { return value == 0; };
+  const std::array idle{Condition{force, is_zero}, Condition{settings.given("base_amplitude"), is_zero}};
+  const auto point = point_with_all(settings, groups, idle);
+  if (!point) return;
   const std::string key = settings.is_si() ? "force" : "f";
-  const SourceLocation* const zero = place_of(force, [](double value) { return value == 0; });
-  const SourceLocation& place = zero != nullptr ? *zero : settings.given(loose_mass)->key_location;
+  const SourceLocation& place =
+      force != nullptr ? force->location_of(point->front()) : settings.given(loose_mass)->key_location;
   if (settings.text("time", "mode") == "steady")
     refuse(place, "steady motion without a force",
            "give " + key + " or base_amplitude, or mode = \"transient\" and a duration in [time]");
@@ -113,12 +113,13 @@ void check_loose_mass(const Settings& settings) {
   check_completeness(settings);
   if (settings.given(loose_mass) == nullptr) return;
   check_main_mass(settings);
-  check_force(settings);
   check_uses(settings);
 }
 
-void check_walls_and_start(const Settings& settings, const AxisGroups& groups) {
+void check_housing(const Settings& settings, const AxisGroups& groups) {
   if (settings.given(loose_mass) == nullptr) return;
+  check_walls(settings, groups);
+  check_force(settings, groups);
   const bool symmetric = settings.given("loose_gap") != nullptr;
   const Placed gap = symmetric ? placed(settings, groups, "loose_gap") : Placed{};
   const Placed lower = symmetric ? mirrored(gap, -1, "loose_gap") : placed(settings, groups, "loose_lower"),

@@ -15,6 +15,13 @@ namespace {
                      number_text(high.values[j]) + "; expected " + rule);
 }
 
+/// Whether a condition holds at an index of its dimension; a value that doesn't vary has one for all.
+bool holds_at(const Condition& condition, std::size_t index) {
+  if (condition.given == nullptr) return true;
+  const auto values = condition.given->numbers();
+  return condition.holds(values[values.size() == 1 ? 0 : index]);
+}
+
 }  // namespace
 
 Placed placed(const Settings& settings, const AxisGroups& groups, Parameter parameter) {
@@ -42,6 +49,29 @@ void compare(const Placed& low, const Placed& high, bool (*permitted)(double, do
   const auto j = std::min_element(high.values.begin(), high.values.end()) - high.values.begin();
   const auto low_index = static_cast<std::size_t>(i), high_index = static_cast<std::size_t>(j);
   if (!permitted(low.values[low_index], high.values[high_index])) refuse(low, low_index, high, high_index, rule);
+}
+
+std::optional<std::vector<std::size_t>> point_with_all(const Settings& settings, const AxisGroups& groups,
+                                                       std::span<const Condition> conditions) {
+  // dimensions vary independently, so that each of them may have an index of its own at which its conditions hold
+  std::vector<std::size_t> point(conditions.size(), 0);
+  std::vector<std::optional<std::size_t>> dimensions;
+  for (const Condition& condition : conditions) dimensions.push_back(dimension_of(settings, condition.given, groups));
+  for (std::size_t first = 0; first < conditions.size(); ++first) {
+    const auto together = [&](std::size_t i) { return dimensions[i] == dimensions[first]; };
+    const auto all_hold = [&](std::size_t index) {
+      for (std::size_t i = 0; i < conditions.size(); ++i)
+        if (together(i) && !holds_at(conditions[i], index)) return false;
+      return true;
+    };
+    const std::size_t length = dimensions[first] ? conditions[first].given->numbers().size() : 1;
+    std::size_t index = 0;
+    while (index < length && !all_hold(index)) ++index;
+    if (index == length) return std::nullopt;
+    for (std::size_t i = first; i < conditions.size(); ++i)
+      if (together(i)) point[i] = index;
+  }
+  return point;
 }
 
 }  // namespace clatter::config

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,17 @@ struct Placed {
 /// Compares two numbers value by value if they vary together, else the largest value of the lower one with the smallest
 /// of the higher. Throws ConfigError if that isn't permitted: "expected RULE".
 void compare(const Placed& low, const Placed& high, bool (*permitted)(double, double), const std::string& rule);
+
+/// What a value of a setting may be.
+struct Condition {
+  const Setting* given = nullptr;  ///< nullptr: it holds, since the key isn't given
+  std::function<bool(double value)> holds;
+};
+
+/// A point of a sweep at which all of some conditions hold: for each of them the index of its setting's value. Nothing
+/// if there is none, as where linked axes hold one condition at one point and another at the next.
+[[nodiscard]] std::optional<std::vector<std::size_t>> point_with_all(const Settings& settings, const AxisGroups& groups,
+                                                                     std::span<const Condition> conditions);
 
 /// The place of a value of a setting for which a test holds, or nullptr.
 template <class Test>
