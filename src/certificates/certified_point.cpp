@@ -155,10 +155,8 @@ void certify_periodic(const Problem& problem, const PointResult& result, Certifi
 }  // namespace
 
 CertifiedPoint certified_period(const Problem& problem, const PointResult& result) {
-  CertifiedPoint point{.status = result.status,
-                       .periods = result.observed_turns,
-                       .word = result.impact_word,
-                       .end = result.end};
+  CertifiedPoint point{
+      .status = result.status, .periods = result.observed_turns, .word = result.impact_word, .end = result.end};
   if (problem.oscillator.forcing == 0)
     point.without = Without::force;
   else
@@ -170,10 +168,8 @@ CertifiedPoint certified(const Problem& problem, point::ThreadScratch& scratch) 
   const Problem plain = observed(problem);
   const PointResult result = point::run_point(plain, scratch);
   if (result.status == steady::Status::periodic) return certified_period(plain, result);
-  CertifiedPoint point{.status = result.status,
-                       .periods = result.observed_turns,
-                       .word = result.impact_word,
-                       .end = result.end};
+  CertifiedPoint point{
+      .status = result.status, .periods = result.observed_turns, .word = result.impact_word, .end = result.end};
   if (result.status == steady::Status::transient) certify_transient(plain, result, point);
   if (result.status == steady::Status::grazing) point.without = Without::graze;
   return point;

@@ -21,8 +21,7 @@ namespace clatter::steady {
 /// none, or isn't that close after max_periods. A loose mass has to be as near to its own, by |z| and |z'|.
 template <stepping::Integrator I>
 [[nodiscard]] double settling_periods(I integrator, motion::State<double> start, const ObservedTime& found,
-                                      const TimeSettings& time, double distance, double velocity,
-                                      const Scene& scene) {
+                                      const TimeSettings& time, double distance, double velocity, const Scene& scene) {
   constexpr double never = std::numeric_limits<double>::quiet_NaN();
   if (!(found.status == Status::periodic || found.status == Status::grazing) || !std::isfinite(found.settling))
     return never;

@@ -9,8 +9,9 @@ from functools import partial
 from itertools import permutations
 
 import numpy as np
+import scene_runs
 from random_scenes import Scene
-from scene_runs import keys_of, machine_keys, sizes
+from scene_runs import machine_keys, sizes
 
 SETTLE = 'mode = "steady"\nmax_periods = 600\n'
 IN_LANES = "[observe]\nextrema = true\nimpacts = true\nperiod = true\nword = true\nstability = true\n"  # lanes do these
@@ -20,7 +21,8 @@ PERIODIC = 0
 CONTRACTS = 0.95  # motion with greater multipliers isn't found to many digits from another start
 
 # They belong to a start, not to the motion: when it is found, and which impact of the period comes first. And keys.
-OF_A_START = "impact impact_phase impact_total simulated_periods settling_estimate v_before v_after velocity_ratio tau x v z w".split()
+OF_A_START = "impact impact_phase impact_total simulated_periods settling_estimate".split()
+OF_A_START += "v_before v_after velocity_ratio tau x v z w".split()
 KEYS = {*Scene.__dataclass_fields__, "damping", "force", "frequency"}
 
 
@@ -29,7 +31,7 @@ class Way:
     """A way to write a scene: sections, keys, and what the numbers of the file are multiples of."""
 
     section: str = "[scene]\n"
-    keys_of: object = keys_of
+    keys_of: object = scene_runs.keys_of
     mass: float = 1.0
 
     @staticmethod
@@ -93,7 +95,7 @@ def multipliers(runs, i):
 
 
 def multipliers_apart(mine, its):
-    """How far two sets of multipliers are apart, in whatever order; their symmetric functions are sharp, they aren't."""
+    """How far two sets of multipliers are apart, in any order; their symmetric functions are sharp, they aren't."""
     if len(mine) != len(its):
         return math.inf
     if len(mine) == 2:

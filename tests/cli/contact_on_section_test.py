@@ -14,8 +14,8 @@ from command_line import CommandLine, runs_here
 
 ARCHITECTURES = ("scalar", *(name for name in ("sse2", "avx2", "avx512") if runs_here(name)))
 
-# A ball on a table that moves up and down, elastic: it leaves the table at the phase pi/2 with the speed pi, and is back
-# a period later, for any f. Its map has the trace 2 - 4 f.
+# A ball on a table that moves up and down, elastic: it leaves the table at the phase pi/2 with the speed pi, and is
+# back a period later, for any f. Its map has the trace 2 - 4 f.
 BALL = """[scene]
 stiffness = 0
 load = -1

@@ -1,6 +1,6 @@
 """The energy ledger where terms nearly cancel.
 
-`impulse` is what a stop gives to the mass, by impacts and while it presses, and not where friction holds the mass alone.
+`impulse` is what a stop gives to the mass, by impacts and while it presses, not where friction alone holds the mass.
 
 Environment: CLATTER, the program.
 """

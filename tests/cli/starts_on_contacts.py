@@ -1,10 +1,10 @@
 """A steady motion is one motion, whether it is started between its contacts or on one of them.
 
 Scenes settle from the starts that were drawn; then each is begun anew on a contact of its log (phase from
-impact_phase, displacement of the stop, velocity v_after, or v_before of a soft stop), within 1e-12 of it, as a machine,
-and on every instruction set. The phase of the start is where the program cuts the motion into periods, so all contacts
-of these runs fall together with a section. Periodic motion that contracts has the same word, impacts, losses, status and
-multipliers from all of them.
+impact_phase, displacement of the stop, velocity v_after, or v_before of a soft stop), within 1e-12 of it, as a
+machine, and on every instruction set. The phase of the start is where the program cuts the motion into periods, so
+all contacts of these runs fall together with a section. Periodic motion that contracts has the same word, impacts,
+losses, status and multipliers from all of them.
 """
 
 import math
