@@ -144,6 +144,37 @@ class OfScenes(unittest.TestCase):
                 sharp += allowed < 1e-5 * abs(own)
         return sharp
 
+    def compare_limits(self, here, beside, keys, name, results, shared):
+        """How many derivatives by keys are the limits of those one and two steps beside.
+
+        `shared` has for each scene the extrema that several impacts may share: any may be the farthest a step on.
+        """
+        known = 0
+        for i, extrema in enumerate(shared):
+            contraction = 1 - abs(complex(here["multiplier_re"][i, 0], here["multiplier_im"][i, 0]))
+            if not all(same_motion(here, i, there, i) for there in beside) or not contraction > 1e-2:
+                continue
+            for result in results:
+                at, *others = (np.atleast_1d(run[result][i]) for run in (here, *beside))
+                if not all(np.allclose(at, other, rtol=1e-4, atol=1e-6, equal_nan=True) for other in others):
+                    continue  # another motion
+                if at[0] in extrema:
+                    continue
+                for by in keys:
+                    known += self.compare_limit([derivative(run, result, by)[i] for run in (here, *beside)], by, name)
+        return known
+
+    def compare_limit(self, derivatives, by, name):
+        """How many of the sides of a result have the derivative that those beside tend to."""
+        known = 0
+        for told, one, two in zip(*map(np.atleast_1d, derivatives)):
+            if math.isnan(one) or math.isnan(two) or not abs(two - one) < 1e-2 * (1 + abs(one)):
+                continue  # none, or beside a fold
+            allowed = 1e-6 * (1 + abs(one)) + abs(two - one)
+            self.check(abs(told - (2 * one - two)), allowed, f"{name}: by {by}, {told}, {one}, {two}")
+            known += 1
+        return known
+
 
 def same_motion(some, j, others, i):
     """Whether two periodic motions have the same events; of those whose word is cut off that isn't known."""

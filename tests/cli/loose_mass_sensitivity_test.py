@@ -66,6 +66,57 @@ def framed(scenes, n):
     return 'frame = "absolute"\n' if "base_amplitude" in scenes[0] and n % 2 else ""
 
 
+def unshaken(scene, **changes):
+    return {"base_amplitude": 0.0, "stop_phase": 0.0, **scene, "base_amplitude": 0.0, **changes}
+
+
+def carried(scene):
+    """Damped so that both masses, while a wall presses the loose one, move aperiodically to the limit."""
+    stiffness, ratio = 0.64, 0.5625
+    return {**scene, "stiffness": stiffness, "loose_mass": ratio, "h": math.sqrt(stiffness * (1 + ratio))}
+
+
+# By name: a scene at a value at which a formula branches, the key that has it, and the sides to which it may change
+SPECIAL = {
+    "no damping": (lambda s: {**s, "h": 0.0}, "h", (1,)),
+    "critical damping": (lambda s: {**s, "h": 0.5, "stiffness": 0.25}, "h", (-1, 1)),
+    "critical spring": (lambda s: {**s, "h": 0.5, "stiffness": 0.25}, "stiffness", (-1, 1)),
+    "critical press": (carried, "h", (-1, 1)),
+    "base at rest": (unshaken, "base_amplitude", (-1, 1)),
+    "base at rest, out of phase": (lambda s: unshaken(s, stop_phase=2.0), "base_amplitude", (-1, 1)),
+    "base in phase": (lambda s: unshaken(s, base_amplitude=-0.3), "stop_phase", (-1, 1)),
+    "base in phase, undamped": (lambda s: unshaken(s, base_amplitude=0.3, h=0.0), "h", (1,)),
+    "no force beside a base": (lambda s: unshaken(s, base_amplitude=0.3, f=0.0), "f", (-1, 1)),
+    "no load": (lambda s: {**s, "load": 0.0, "loose_load": 0.0}, "loose_load", (-1, 1)),
+    "plastic walls": (lambda s: {**s, "loose_R": 0.0}, "loose_R", (1,)),
+}
+
+
+class AtSpecialValues(OfScenes):
+    def test_derivatives_where_a_formula_branches_are_those_beside(self):
+        known = {}
+        for n, (name, (prepared, key, sides)) in enumerate(SPECIAL.items()):
+            draw = random.Random(f"{SEED} {name}")
+            scenes = [scene for scene in map(prepared, drawn(COUNT // 4, SEED + 10 + n))]
+            scenes = [scene for scene in scenes if "loose_upper" in scene or scene["loose_load"] < 0]
+            ways = [1e-9 * draw.choice(sides) for _ in scenes]
+            known[name] = sum(self.compare(some, key, name) for some in kinds(scenes, ways, key))
+        self.assertEqual(self.told(), "")
+        self.assertEqual({name: count for name, count in known.items() if count < 8}, {})
+
+    def compare(self, groups, key, name):
+        keys = sorted({own for own in groups[0][0] if own not in STARTS} | {key})
+        wanted = f'{STEADY}{framed(groups[0], 1)}sensitivity = "{", ".join(keys)}"\n'
+        here, *beside = (self.program.run(some, SETTLE, wanted, keys_of=values_of) for some in groups)
+        return self.compare_limits(here, beside, keys, name, RESULTS_IN_HOUSING, [()] * len(groups[0]))
+
+
+def kinds(scenes, ways, key):
+    """Scenes of equal keys, and those one and two steps beside them."""
+    for kind in families(list(zip(scenes, ways)), lambda pair: pair[0]):
+        yield [[{**scene, key: scene[key] + n * way} for scene, way in kind] for n in (0, 1, 2)]
+
+
 class OfRandomScenes(OfScenes):
     def test_the_units_of_length_time_and_mass_may_change(self):
         for n, scenes in enumerate(families(drawn(COUNT, SEED), values_of)):

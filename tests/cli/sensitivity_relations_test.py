@@ -194,31 +194,8 @@ class AtSpecialValues(OfScenes):
             self.program.run(some, SETTLE, wanted, keys_of=lambda s: keys_of_kind(s, near[0]))
             for some in (scenes, near, far)
         )
-        known = 0
-        for i, scene in enumerate(scenes):
-            contraction = 1 - abs(complex(here["multiplier_re"][i, 0], here["multiplier_im"][i, 0]))
-            if not all(same_motion(here, i, there, i) for there in beside) or not contraction > 1e-2:
-                continue
-            for result in RESULTS:
-                at, *others = (np.atleast_1d(run[result][i]) for run in (here, *beside))
-                if not all(np.allclose(at, other, rtol=1e-4, atol=1e-6, equal_nan=True) for other in others):
-                    continue  # another motion
-                if frame and at[0] in (scene.stop_lower, scene.stop_upper):
-                    continue  # of several impacts on a stop at rest any may be the farthest once it moves
-                for by in keys:
-                    known += self.compare_one([derivative(run, result, by)[i] for run in (here, *beside)], by, name)
-        return known
-
-    def compare_one(self, derivatives, by, name):
-        """How many of the sides of a result have the derivative that those beside tend to."""
-        known = 0
-        for told, one, two in zip(*map(np.atleast_1d, derivatives)):
-            if math.isnan(one) or math.isnan(two) or not abs(two - one) < 1e-2 * (1 + abs(one)):
-                continue  # none, or beside a fold
-            allowed = 1e-6 * (1 + abs(one)) + abs(two - one)
-            self.check(abs(told - (2 * one - two)), allowed, f"{name}: by {by}, {told}, {one}, {two}")
-            known += 1
-        return known
+        stops = [(s.stop_lower, s.stop_upper) if frame else () for s in scenes]
+        return self.compare_limits(here, beside, keys, name, RESULTS, stops)
 
 
 def is_whole(scene, key):
