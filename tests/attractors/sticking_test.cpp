@@ -82,9 +82,11 @@ TEST(Sticking, each_edge_to_which_the_mass_creeps_is_one_attractor) {
   EXPECT_EQ(of<std::int64_t>(dataset, "motion_points"), (std::vector<std::int64_t>{22, 5, 22}));
   EXPECT_EQ(of<std::string>(dataset, "motion_word"), (std::vector<std::string>{"(S)", "(S)", "(S)"}));
   const auto& mirrors = of<std::int32_t>(dataset, "motion_mirror");
-  EXPECT_EQ(mirrors[0], 2), EXPECT_EQ(mirrors[2], 0);
+  EXPECT_EQ(mirrors[0], 2);
+  EXPECT_EQ(mirrors[2], 0);
   const auto& x = of<double>(dataset, "motion_x");
-  EXPECT_NEAR(x[0], -0.05, 1e-15), EXPECT_NEAR(x[2], 0.05, 1e-15);
+  EXPECT_NEAR(x[0], -0.05, 1e-15);
+  EXPECT_NEAR(x[2], 0.05, 1e-15);
   EXPECT_EQ(std::ranges::count(of<std::uint8_t>(dataset, "status"), 5), 44);
 }
 

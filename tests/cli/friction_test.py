@@ -61,7 +61,6 @@ class Sliding(CommandLine):
 
 # The force 1 is held from x = -0.05 to 0.05, and lets the mass slip ever less beyond.
 CREEP = """[scene]
-h = 0.05
 f = 1
 nu = 1
 friction = 1.05

@@ -62,7 +62,7 @@ TEST(Creep, is_told_of_a_mass_beyond_the_band_in_which_friction_holds_it_for_goo
 /// run of n periods isn't there, nor beyond.
 TEST(Creep, the_way_that_is_left_falls_like_the_inverse_of_the_time) {
   int creeping = 0;
-  for (std::uint64_t i = 0; i < 60; ++i) {
+  for (std::uint64_t i = 0; i < 24; ++i) {
     support::Random random(65, i);
     const double nu = random.logarithmic(0.3, 3), f = random.logarithmic(0.3, 3), k = random.logarithmic(0.2, 4),
                  mu = f * random.uniform(1, 1.5);
@@ -83,7 +83,7 @@ TEST(Creep, the_way_that_is_left_falls_like_the_inverse_of_the_time) {
     const double rate = (1 / (k * side * (after - edge)) - 1 / (k * side * (before - edge))) / (n / 2);
     EXPECT_NEAR(rate / (4.5 * k / (f * nu * nu)), 1, 0.05) << i;
   }
-  EXPECT_GT(creeping, 20);
+  EXPECT_GT(creeping, 8);
 }
 
 /// Where the force takes it over the static level, the mass jumps by a finite way, and sticks in the band.
@@ -103,7 +103,7 @@ TEST(Creep, ends_at_a_stop_on_its_way) {
 }
 
 TEST(Creep, in_contact_with_a_soft_stop_is_told_with_both_springs) {
-  Problem problem = rubbing({0.05, 1, 1, 0.5}, 1.05, 1.05, 0.9);
+  Problem problem = rubbing({0.05, 1, 1, 0.5}, 1.05, 1.05, 0.23);
   problem.stops = {-none, 0.1, 1, 1};
   problem.stops.stiffness_upper = 3, problem.stops.damping_upper = 0.2;
   const PointResult result = run(problem);
