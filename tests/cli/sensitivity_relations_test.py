@@ -168,7 +168,7 @@ SPECIAL = {
 
 class AtSpecialValues(OfScenes):
     def test_derivatives_where_a_formula_branches_are_those_beside(self):
-        each = max(4, COUNT // 16)
+        each = max(9, COUNT // 16)
         known = {}
         for n, (name, (prepared, key, sides, step)) in enumerate(SPECIAL.items()):
             draw = random.Random(f"{SEED} {name}")
