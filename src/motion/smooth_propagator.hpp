@@ -7,7 +7,7 @@
 
 namespace clatter::motion {
 
-// Free motion near h^2 = k and at k = 0, by formulas without a branch (eq. 75): the others have the same values, but
+// Free motion near h^2 = k and at k = 0, by formulas without a branch (eq. 79): the others have the same values, but
 // divide by lambda = |k - h^2|^(1/2) or by k, so that their derivatives by h and k lose all digits there.
 
 /// cosh(y) - 1 and sinh(y)/y of y^2 = square, at most 1/64 in size, which may be negative.
