@@ -56,7 +56,7 @@ class Follower {
   void follow(const Waiting& from) {
     speed_unit_ = speed_scale(from.scene, from.orbit);
     record_.begin(speed_unit_);
-    generation_ = from.generation;
+    generation_ = from.generation, is_born_ = from.direction.has_value();
     if (from.orbit.rests()) return resting().follow(from);
     if (from.opens) return follow_opened(from);
     const OrbitEquations equations = equations_for(from.orbit);
@@ -71,18 +71,11 @@ class Follower {
       walk(equations, start, from.special);
       return;
     }
+    if (!from.special) return walk_both_ways(equations, start_near(equations, start.at, settings_.tolerance));
+    // the motion that another branch was born on
     const auto begun = point_near(equations, start.at, settings_.tolerance);
-    if (from.special) {  // the motion that another branch was born on
-      if (!begun || violation(equations, begun->at)) return record_.fail(record_.point(equations, start), no_step_off);
-      record_.meet(*from.special, record_.branch());
-    } else if (!begun) {
-      throw StartError(
-          "Newton's method does not converge from the motion at the start; move it away from a special point");
-    } else if (violation(equations, begun->at)) {
-      throw StartError(
-          "Newton's method leads from the start to no motion between the stops; set x0 and v0 nearer to the motion "
-          "that is meant");
-    }
+    if (!begun || violation(equations, begun->at)) return record_.fail(record_.point(equations, start), no_step_off);
+    record_.meet(*from.special, record_.branch());
     walk_both_ways(equations, *begun);
   }
 
@@ -164,15 +157,22 @@ class Follower {
     record_.fail(record_.point(equations, walk.here()), no_step);
   }
 
-  /// Special points within a step. Returns true if the branch is born in one of them, which ends it.
+  /// Special points within a step, which may end in a graze. Returns true if the branch is born in one of them, which
+  /// ends it.
   bool special_between(const OrbitEquations& equations, const Walk& walk, double step,
-                       const std::optional<std::size_t>& from) {
-    const std::vector<FoundPoint> found =
-        special_points_within(equations, walk, step, from.has_value(), problem_.observe);
+                       const std::optional<std::size_t>& from, bool grazes = false) {
+    std::vector<FoundPoint> found =
+        special_points_within(equations, walk, step, {from.has_value(), grazes}, problem_.observe);
+    const auto half_of = [&](const FoundPoint& f) {
+      return equations.orbit_at(f.point.at).half_if_same(1e-3, symmetric_);
+    };
+    const auto is_of_more = [&](const FoundPoint& f) {
+      return f.kind == SpecialKind::fold && half_of(f).size() < equations.shape().size();
+    };
+    // beside its own birth, rounding decides which way the parameter runs
+    if (is_born_) std::erase_if(found, [&](const auto& f) { return f.point.arclength < 1e-3 && is_of_more(f); });
     const auto birth = std::ranges::find_if(found, [&](const FoundPoint& f) {
-      if (f.kind != SpecialKind::fold || from) return false;
-      const Orbit orbit = equations.orbit_at(f.point.at), half = orbit.half_if_same(1e-3, symmetric_);
-      return half.size() < orbit.size() && note_birth(equations, f.point, half);
+      return !from && is_of_more(f) && note_birth(equations, f.point, half_of(f));
     });
     // in its birth a branch turns round, so all its measures do
     const double end = birth != found.end() ? birth->point.arclength - 1e-2 * step : walk.here().arclength + step;
@@ -246,7 +246,7 @@ class Follower {
     if (const auto changes = halt_changes(equations, *between); !changes.empty())
       return end_in_halt(equations, walk, *between, changes, from);
     const Touch touch = touch_of(equations, *between);
-    if (special_between(equations, walk, touch.last_good.arclength - walk.here().arclength, from))
+    if (special_between(equations, walk, touch.last_good.arclength - walk.here().arclength, from, true))
       return record_.end(record_.point(equations, touch.last_good), "born");
     if (touch.appears && !touch.halts && equations.shape().size() > 0 && ends_in_rest(equations, touch, step)) return;
     const auto exact = exact_graze(any_equations(), equations.scene_at(touch.beyond.at), touch.graze(),
@@ -272,6 +272,9 @@ class Follower {
       wait_with(at.scene, with, touch.impact, special, heading);
     else
       wait_without(at.scene, without, special, heading);
+    const bool may_gain = !touch.turns && !touch.appears && !touch.halts && settings_.follows(Birth::graze);
+    if (auto each = may_gain ? with_each(at, touch.impact, symmetric_, special, generation_) : std::nullopt)
+      waiting_.push_back(*std::move(each));
   }
 
   /// No step leads on: under dry friction, as a slip vanishes.
@@ -332,6 +335,7 @@ class Follower {
   bool symmetric_;  ///< all scenes of the branch
   double speed_unit_ = 0.0;
   std::int64_t generation_ = 0;
+  bool is_born_ = false;  ///< the present branch, at a flip or a loss of symmetry
   std::deque<Waiting> waiting_;
   Record record_;
 };

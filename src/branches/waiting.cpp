@@ -1,6 +1,7 @@
 #include "branches/waiting.hpp"
 
 #include <string>
+#include <utility>
 
 #include "branches/start.hpp"
 #include "branches/walk/graze.hpp"
@@ -22,12 +23,32 @@ Waiting daughter_at(const BranchPoint& at, std::size_t special, std::int64_t gen
   return {at.scene, daughter, direction, special, generation};
 }
 
+std::optional<Waiting> with_each(const BranchPoint& at, std::size_t graze, bool symmetric_scene, std::size_t special,
+                                 std::int64_t generation) {
+  if (at.orbit.meets_soft_stop()) return std::nullopt;
+  const Orbit once = at.orbit.once_with_graze(graze, symmetric_scene);
+  if (once.half_turns == at.orbit.half_turns) return std::nullopt;
+  return Waiting{at.scene, once, {}, special, generation};
+}
+
 std::optional<CurvePoint> point_near(const OrbitEquations& equations, const Vector& guess, double tolerance) {
   Vector axis(equations.unknowns(), 0.0);
   axis.back() = 1;
   const auto at = corrected(equations, guess, axis, tolerance);
   const auto along = at ? tangent(equations, *at, axis) : std::nullopt;
   return along ? std::optional(CurvePoint{*at, *along, 0.0}) : std::nullopt;
+}
+
+CurvePoint start_near(const OrbitEquations& equations, const Vector& guess, double tolerance) {
+  auto start = point_near(equations, guess, tolerance);
+  if (!start)
+    throw StartError(
+        "Newton's method does not converge from the motion at the start; move it away from a special point");
+  if (violation(equations, start->at))
+    throw StartError(
+        "Newton's method leads from the start to no motion between the stops; set x0 and v0 nearer to the motion "
+        "that is meant");
+  return *std::move(start);
 }
 
 bool leaves_range(const CurvePoint& start, const BranchSettings& settings) {

@@ -33,9 +33,18 @@ void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Or
 /// A branch that is born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
 [[nodiscard]] Waiting daughter_at(const BranchPoint& at, std::size_t special, std::int64_t generation);
 
+/// Motion that repeats sooner without the impact that grazes, or is symmetric, may gain such an impact in each of its
+/// repetitions, too: this motion. Nothing if it doesn't.
+[[nodiscard]] std::optional<Waiting> with_each(const BranchPoint& at, std::size_t graze, bool symmetric_scene,
+                                               std::size_t special, std::int64_t generation);
+
 /// The point of a branch at the parameter of a guess, with its tangent towards larger values of that.
 [[nodiscard]] std::optional<CurvePoint> point_near(const OrbitEquations& equations, const Vector& guess,
                                                    double tolerance);
+
+/// The same of a branch that doesn't begin at another one. Throws StartError if there is none that is motion between
+/// the stops.
+[[nodiscard]] CurvePoint start_near(const OrbitEquations& equations, const Vector& guess, double tolerance);
 
 /// Whether a walk begins on a bound of the range, outwards.
 [[nodiscard]] bool leaves_range(const CurvePoint& start, const BranchSettings& settings);

@@ -45,6 +45,39 @@ switch = 1
 """
 
 
+# beside a rigid stop; motion over two periods is born at the flip at nu = 2.67162574
+DOUBLED = """[scene]
+h = 0.1
+f = 1
+nu = 2.6
+stop_upper = 0
+R = 0.7
+x0 = -0.2
+[observe]
+energy = true
+harmonics = 1
+[branch]
+along = "nu"
+range = [1.5, 3]
+switch = 1
+"""
+
+# LLUULUU of two periods ends in a graze of LUU, beyond which LLUU goes on
+GRAZES_TWICE = """[scene]
+h = 0.16639281766151268
+f = 1.8425921343457292
+nu = 2.3257529424554106
+x0 = -0.026820966225948196
+v0 = -0.9313357144148431
+stop_upper = 0.19420429296600822
+stop_lower = -0.28728411181600266
+R = 0.4677859438378786
+[branch]
+along = "nu"
+range = [1.3954517654732463, 3.721204707928657]
+"""
+
+
 class BranchAgain(BranchRuns):
     def found(self, parameter, *words):
         """Each branch: word, period, symmetry, and the ends of its range of the parameter."""
@@ -79,6 +112,31 @@ class BranchAgain(BranchRuns):
             self.assertLess(np.bincount(file["branch"][()]).max(), 200)
             grazes = np.sort(file["special_f"][()][file["special_kind"][()] == b"graze"])
         self.assertGreater(np.diff(grazes).min(), 1e-6)
+
+    def test_no_maximum_is_told_where_a_branch_is_born(self):
+        found = self.found("nu", self.write("a.toml", DOUBLED))
+        with h5py.File(self.directory / "b.h5") as file:
+            kinds, values = file["special_kind"][()], file["special_nu"][()]
+        flip = values[kinds == b"flip"].min()
+        self.assertAlmostEqual(flip, 2.6716257426, places=9)
+        self.assertIn(2.0, [branch[1] for branch in found])
+        maxima = values[[kind.startswith(b"maximum") for kind in kinds]]
+        self.assertEqual(len(maxima), 5)
+        self.assertGreater(np.abs(maxima - flip).min(), 1e-2)
+
+    def test_beside_its_birth_a_branch_has_no_fold_however_short_its_steps_are(self):
+        path = self.write("a.toml", DOUBLED.replace("[1.5, 3]", "[2.5, 2.75]"))
+        for step in ("0.02", "1e-3", "1e-4"):
+            for birth in ("1e-12", "1e-11"):
+                words = ("--set", f"branch.largest_step={step}", "--set", f"branch.tolerance={birth}")
+                self.found("nu", path, *words, "--set", "branch.max_points=30000")
+                with h5py.File(self.directory / "b.h5") as file:
+                    self.assertNotIn(b"fold", file["special_kind"][()], (step, birth))
+
+    def test_motion_over_two_periods_that_ends_in_a_graze_of_one_leads_to_what_goes_on_beyond(self):
+        words = [branch[0] for branch in self.found("nu", self.write("a.toml", GRAZES_TWICE))]
+        for word in (b"LUU", b"LLUU", b"LLUULUU", b"LLUUU", b"LLLUUU"):
+            self.assertIn(word, words)
 
     def test_each_branch_leads_to_the_others(self):
         for config in ("branch", "soft_branch"):

@@ -43,7 +43,8 @@ bool Orbit::rests() const {
 
 OrbitImpact Orbit::impact(std::size_t i) const {
   if (i < size()) return impacts[i];
-  return later(mirrored ? branches::mirrored(impacts[i - size()]) : impacts[i - size()], advance());
+  const OrbitImpact before = impact(i - size());
+  return later(mirrored ? branches::mirrored(before) : before, advance());
 }
 
 Side Orbit::heading_before(std::size_t i) const {
@@ -106,13 +107,17 @@ Orbit Orbit::half_if_same(double tolerance, bool symmetric_scene) const {
   };
   if (pressed != Side::none) return {{}, 2, false, pressed};
   if (size() == 0) return symmetric_scene ? Orbit{{}, 1, true} : Orbit{{}, 2, false};
-  if (mirrored || size() % 2 != 0) return *this;
-  const auto middle = impacts.begin() + static_cast<std::ptrdiff_t>(size() / 2);
-  const Orbit half{{impacts.begin(), middle}, half_turns / 2, half_turns / 2 % 2 != 0};  // the force turns, too
-  if (half.mirrored && !symmetric_scene) return *this;
-  for (std::size_t i = half.size(); i < size(); ++i)
-    if (!same(half.impact(i), impacts[i])) return *this;
-  return half.half_if_same(tolerance, symmetric_scene);
+  for (std::size_t times = 2; times <= size(); ++times) {
+    const auto parts = static_cast<int>(times);
+    if (size() % times != 0 || half_turns % parts != 0 || (mirrored && times % 2 == 0)) continue;
+    const auto end = impacts.begin() + static_cast<std::ptrdiff_t>(size() / times);
+    const Orbit part{{impacts.begin(), end}, half_turns / parts, half_turns / parts % 2 != 0};  // the force turns, too
+    if (part.mirrored && !symmetric_scene) continue;
+    bool all_same = true;
+    for (std::size_t i = part.size(); i < size() && all_same; ++i) all_same = same(part.impact(i), impacts[i]);
+    if (all_same) return part.half_if_same(tolerance, symmetric_scene);
+  }
+  return *this;
 }
 
 Orbit Orbit::with(const OrbitImpact& impact, std::size_t after) const {

@@ -66,7 +66,7 @@ struct Orbit {
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
   /// Whether the flight after event i ends in the mirror image of the first one.
   [[nodiscard]] bool ends_mirrored(std::size_t i) const { return mirrored && i + 1 == size(); }
-  /// Impact i = 0 ... size: the last one is the first, half a period or a period later.
+  /// Impact i = 0, 1, ...: from number size on it is one of the first again, half a period or a period later.
   [[nodiscard]] OrbitImpact impact(std::size_t i) const;
   /// The side that the mass moves to before event i, if it is one of rigid stops and dry friction.
   [[nodiscard]] Side heading_before(std::size_t i) const;
@@ -75,7 +75,8 @@ struct Orbit {
   [[nodiscard]] Orbit whole() const;                    ///< both halves, if one is kept
   [[nodiscard]] Orbit mirror_image() const;             ///< half a forcing period later
   [[nodiscard]] Orbit repeated(int times) const;        ///< of the whole, as if it repeated only after so many periods
-  [[nodiscard]] Orbit half_if_same(double tolerance, bool symmetric_scene) const;  ///< kept as a half, if it can be
+  /// One of its repetitions, if it repeats sooner; kept as a half, if it can be.
+  [[nodiscard]] Orbit half_if_same(double tolerance, bool symmetric_scene) const;
   [[nodiscard]] Orbit with(const OrbitImpact& impact, std::size_t after) const;
   [[nodiscard]] Orbit with_event(std::size_t i, EventKind event) const;  ///< event i is another one
   [[nodiscard]] Orbit without(std::size_t i) const;  ///< motion without impacts has the force's period

@@ -9,16 +9,20 @@
 namespace clatter::branches {
 
 std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, const Walk& walk, double step,
-                                              bool is_first, const observables::Observe& observe) {
+                                              const StepEnds& ends, const observables::Observe& observe) {
+  const bool is_first = ends.begins_in_special;
   std::vector<FoundPoint> found;
   const auto there = walk.after(step);
   if (!there) return found;
-  const auto look = [&](SpecialKind kind, const TestFunction& test, bool only_down, double from = 0.0) {
-    const auto first = walk.after(from);
-    if (!first) return;
-    const double a = test(*first), b = test(*there);
+  const auto look_between = [&](double from, double to, SpecialKind kind, const TestFunction& test, bool only_down) {
+    const auto first = walk.after(from), last = to == step ? there : walk.after(to);
+    if (!first || !last) return;
+    const double a = test(*first), b = test(*last);
     if ((a < 0) == (b < 0) || (only_down && a < 0)) return;
-    if (const auto zero = walk.zero(test, step, from)) found.push_back({kind, *zero});
+    if (const auto zero = walk.zero(test, to, from)) found.push_back({kind, *zero});
+  };
+  const auto look = [&](SpecialKind kind, const TestFunction& test, bool only_down, double from = 0.0) {
+    look_between(from, step, kind, test, only_down);
   };
   // a branch begins across the parameter if it is born in a flip or a loss of symmetry: that is no fold of it
   look(
@@ -49,11 +53,12 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
         false, begin);
   }
   if (has_impacts || equations.shape().pressed != Side::none) {
+    const double aside = 1e-2 * step, from = is_first ? aside : 0.0, to = ends.ends_in_graze ? step - aside : step;
     const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
       const auto at = [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)); };
       if (!changes(at(walk.here())) && !changes(at(*there))) return;
-      look(
-          of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true, begin);
+      look_between(
+          from, to, of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
     };
     look_for_maximum(SpecialKind::impact_speed, impact_speed);
     if (observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);
