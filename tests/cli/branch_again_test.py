@@ -78,6 +78,28 @@ range = [1.3954517654732463, 3.721204707928657]
 """
 
 
+# symmetric motion that loses its symmetry at a gap of 3.71911298, where its equations are singular to the last bit
+LOOSE = """[scene]
+h = 0.009977222968911197
+nu = 0.9549620781608761
+f = 0.2542376484133708
+loose_mass = 0.007567974344389645
+loose_R = 0.3756606673845394
+loose_x0 = -1.2767332804879405
+loose_v0 = 0.9650007879542244
+x0 = -3.03539911226158
+v0 = 3.6713401068968765
+loose_gap = 5.186327373077845
+[time]
+max_periods = 3000
+[branch]
+along = "loose_gap"
+range = [2.5931636865389227, 8.298123796924553]
+switch = 1
+max_points = 600
+"""
+
+
 class BranchAgain(BranchRuns):
     def found(self, parameter, *words):
         """Each branch: word, period, symmetry, and the ends of its range of the parameter."""
@@ -137,6 +159,16 @@ class BranchAgain(BranchRuns):
         words = [branch[0] for branch in self.found("nu", self.write("a.toml", GRAZES_TWICE))]
         for word in (b"LUU", b"LLUU", b"LLUULUU", b"LLUUU", b"LLLUUU"):
             self.assertIn(word, words)
+
+    def test_rounding_does_not_decide_whether_a_loose_mass_loses_its_symmetry(self):
+        found = self.found("loose_gap", self.write("a.toml", LOOSE))
+        self.assertIn((b"LU", 1.0, False), [branch[:3] for branch in found])
+        with h5py.File(self.directory / "b.h5") as file:
+            gaps, stable = file["loose_gap"][()], file["stable"][()]
+            asymmetric = (file["symmetric"][()] == 0) & (file["word"][()] == b"LU")
+        born = asymmetric & (gaps > 3.0) & (gaps < 3.719)
+        self.assertGreater(born.sum(), 10)
+        self.assertTrue(stable[born].all())
 
     def test_each_branch_leads_to_the_others(self):
         for config in ("branch", "soft_branch"):
