@@ -22,7 +22,7 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   combinations COUNT random scenes of all effects together, each written in several ways, by the program,
                and branches, followed sweeps and starts of a tenth of them (default 3000; about 0.2 s each)
   coincidences COUNT random scenes in which events fall together, and in which they don't: starts on a contact and
-               between, keys at zero and at 1e-9, branches begun again from each of their set, scenes and machines
+               between, keys at zero and at 1e-9, branches begun again from any of their set, scenes and machines
                (default 2000; about 0.5 s each)
   sensitivity  derivatives by keys of COUNT random scenes, and as many with a loose mass: what units demand of them,
                and differences of runs (default 3000; about 40 ms each)

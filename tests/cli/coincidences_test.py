@@ -9,7 +9,9 @@ import tempfile
 import unittest
 
 import numpy as np
+from branch_sets import Sets, branching_scenes
 from coincidences import IN_LANES, SETTLE, of_seed
+from keys_at_zero import Zeros, zero_scenes
 from random_scenes import carrying_scenes
 from scene_runs import Program, complex_of, numbers
 from starts_on_contacts import ARCHES, Contacts, mixed_scenes
@@ -40,6 +42,24 @@ class Coincidences(unittest.TestCase):
             told.append(found.report())
         self.assertEqual("\n".join(filter(None, told)), "")
         self.assertGreater(compared, COUNT)
+
+    def test_a_key_at_zero_gives_what_it_gives_beside_zero(self):
+        compared, told = 0, []
+        for count, seed in self.parts():
+            found = Zeros(CLATTER, zero_scenes(count, seed), seed).failures
+            compared += found.compared
+            told.append(found.report())
+        self.assertEqual("\n".join(filter(None, told)), "")
+        self.assertGreater(compared, COUNT // 4)
+
+    def test_branches_begun_again_from_any_of_a_set_are_that_set(self):
+        compared, told = 0, []
+        for count, seed in self.parts():
+            found = Sets(CLATTER, branching_scenes(max(12, count // 4), seed)).failures
+            compared += found.compared
+            told.append(found.report())
+        self.assertEqual("\n".join(filter(None, told)), "")
+        self.assertGreater(compared, 5)
 
 
 class TextbookBall(unittest.TestCase):

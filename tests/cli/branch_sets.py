@@ -1,0 +1,90 @@
+"""A set of branches that is begun again from any of them has that branch, and those that it meets, again.
+
+A branch is followed both ways from any of its points, and so is each branch that it meets in a special point. So the
+special points of all these are found again, whichever branch the set is begun with. And a machine has the branches of
+the scene that it is.
+"""
+
+import random
+import subprocess
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+from coincidences import Failures, Way, machine
+from random_scenes import followed_scenes, slipping_scenes
+from starts_on_contacts import alike
+
+OBSERVED = "[observe]\nimpacts = true\n"
+MOST = 600  # points of a set; a longer one is cut, and isn't compared
+# Whether a maximum is told depends on where the steps are.
+COMPARED = ("fold", "flip", "symmetry breaking", "graze", "crossing-sliding", "grazing-sliding", "switching-sliding")
+
+
+def branching_scenes(count, seed):
+    draw = random.Random(f"sets {seed}")
+    kinds = (iter([alike(draw) for _ in range(count)]), iter(followed_scenes(count, seed)))
+    kinds += (iter(slipping_scenes(count, seed)),)
+    return [next(kinds[i % len(kinds)]) for i in range(count)]
+
+
+class Sets:
+    def __init__(self, program, scenes):
+        self.program, self.failures, self.count = program, Failures(), 0
+        with tempfile.TemporaryDirectory() as folder:
+            self.folder = Path(folder)
+            for i, scene in enumerate(scenes):
+                self.compare(i, scene)
+
+    def configuration(self, scene, way=Way()):
+        values = way.keys_of(scene)
+        key = "nu" if "nu" in values else "frequency"
+        low, high = 0.85 * values[key], 1.15 * values[key]
+        branch = f'[branch]\nalong = "{key}"\nrange = [{low!r}, {high!r}]\nswitch = 1\nmax_points = {MOST}\n'
+        lines = "".join(f"{name} = {value!r}\n" for name, value in values.items())
+        return f"{way.section}{lines}[time]\nmax_periods = 600\nmax_impacts = 20000\n{OBSERVED}{branch}", key
+
+    def follow(self, text, key, scale=1.0, words=()):
+        """The special points by branch, the points of each branch, and the file; None if nothing is to be followed."""
+        self.count += 1
+        name = self.folder / f"{self.count}.toml"
+        name.write_text(text, encoding="utf-8")
+        output = name.with_suffix(".h5")
+        command = [self.program, "branch", name, "-o", output, "-q", *words]
+        subprocess.run(command, capture_output=True, check=False, timeout=300)
+        if not output.exists():
+            return None
+        with h5py.File(output) as data:
+            branch = data["branch"][()]
+            if np.bincount(branch).max() >= MOST:
+                return None
+            kinds = [kind.decode() for kind in data["special_kind"][()]]
+            at, of = data["special_" + key][()] * scale, data["special_branch"][()]
+            specials = [(k, float(a), {int(n) for n in row if n >= 0}) for k, a, row in zip(kinds, at, of)]
+        return [special for special in specials if special[0] in COMPARED], branch, output
+
+    def compare(self, i, scene):
+        text, key = self.configuration(scene)
+        found = self.follow(text, key)
+        if found is None or not 0 < len(found[0]) <= 12:
+            return
+        specials, branch, output = found
+        for number in range(min(4, int(branch.max()) + 1)):
+            points = np.flatnonzero(branch == number)
+            if len(points) < 8:
+                continue
+            words = ("--from", output, "--where", f"point={points[len(points) // 2]}")
+            met = {n for _, _, numbers in specials if number in numbers for n in numbers} | {number}
+            self.same(f"begun again from branch {number}", i, self.follow(text, key, words=words), specials, met, text)
+        other, name = self.configuration(scene, machine())
+        met = set(range(int(branch.max()) + 1))
+        self.same("as a machine", i, self.follow(other, name, 2 * np.pi), specials, met, text)
+
+    def same(self, relation, i, again, specials, met, text):
+        """All special points of these branches are in another set."""
+        self.failures.compared += 1
+        for kind, at, numbers in specials:
+            near = again and any(k == kind and abs(a - at) <= 1e-7 * at for k, a, _ in again[0])
+            if numbers & met and not near:
+                self.failures.add(relation.rstrip("0123456789 "), i, f"{relation}: no {kind} at nu = {at!r}", text)
