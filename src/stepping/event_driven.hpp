@@ -92,7 +92,7 @@ class EventDriven : public LoosePhases<Method, N, E> {
         this->method().fly(state, this->motion(this->constants(), state), this->anchor(state), horizon);
     if (!contact.resolved) return this->outcome_at(contact);
     const Side side = contact.side;
-    if (side != Side::none && contact.elapsed == 0 && state.v == 0) {
+    if (side != Side::none && (this->is_hop(state, contact) || (contact.elapsed == 0 && state.v == 0))) {
       if (!E.soft || !is_soft(this->stops(), side) || !this->begin_pressed(state, contact))
         wait(state, side, end, origin, observer);
       return Outcome::completed;

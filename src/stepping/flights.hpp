@@ -61,6 +61,24 @@ class Flights : public IntegratorBase<N, E> {
     return {offset, state.x, state.v, a, sine, cosine};
   }
 
+  /// The longest time after which a mass that a stop or a wall lets go, and that is back, may never have been let go:
+  /// a force that touches zero differs from zero so long by no more than the rounding of its parts, some ulps of each.
+  [[nodiscard]] Number shortest_hop() const {
+    using std::sqrt;
+    return 4 * sqrt(epsilon<Number>()) * 2 * pi<Number>() / this->constants().rate;
+  }
+
+  /// Whether a mass that a rigid stop lets go is back at once: the pressing force touches zero, and has lost its digits
+  /// in the difference of the load and the spring.
+  [[nodiscard]] bool is_hop(const motion::State<Number>& state, const motion::Crossing<Number>& contact) const {
+    using std::abs, std::sqrt;
+    if (E.forcing == Forcing::none || !E.rest || state.v != 0 || state.offset != 0) return false;
+    if (state.from_stop != contact.side || is_soft(this->stops(), contact.side)) return false;
+    const auto& c = this->constants();
+    const Number of_all = abs(c.f) + abs(c.load) + abs(c.spring(state.x));
+    return contact.elapsed * sqrt(abs(c.f)) <= shortest_hop() * sqrt(of_all);
+  }
+
   void pass(motion::State<Number>& state, const Number& elapsed) const {
     state.phase_turns += elapsed / this->period();
   }

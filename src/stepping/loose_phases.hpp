@@ -52,16 +52,19 @@ class LoosePhases : public SoftPhases<Method, N, E> {
       return epsilon<Number>();
     return Number(1e-30);
   }
+  /// The speed of the main mass, or what its displacement stands for.
+  [[nodiscard]] Number extent(const motion::State<Number>& state) const {
+    using std::abs;
+    const auto& c = this->constants();
+    return abs(state.v) + c.natural * abs(state.x - c.equilibrium);
+  }
   /// Whether nothing can tell the rest of a chatter: a rebound with the speed w changes no digit of the motion, or
   /// doesn't let time go on.
   [[nodiscard]] bool is_faded(const motion::State<Number>& state, const Number& w, const Number& pressing) const {
-    using std::abs;
     if (!(pressing > 0)) return false;
     if (w == 0) return true;
     if (!(walls_.rule.law.R < 1)) return false;
-    const auto& c = this->constants();
-    const Number motion = abs(state.v) + c.natural * abs(state.x - c.equilibrium);
-    return w <= faded() * motion || 2 * w <= pressing * epsilon<Number>() * this->period();
+    return w <= faded() * extent(state) || 2 * w <= pressing * epsilon<Number>() * this->period();
   }
 
   template <class Observer>
@@ -84,13 +87,25 @@ class LoosePhases : public SoftPhases<Method, N, E> {
     if (crossing.margin == 0) state.loose.pressed = false, state.released = true;
     return Outcome::completed;
   }
+  /// Whether a flight that begins with z' = w ends where nothing tells it from a press: at once, or on the wall that it
+  /// begins on, from which it rises by less than rounding. The force of the wall touches zero there, and its sign is
+  /// that of rounding.
+  [[nodiscard]] bool is_lost(const motion::State<Number>& state, const motion::Crossing<Number>& contact,
+                             const Number& w) const {
+    using std::abs;
+    if (contact.elapsed == 0 && w == 0) return true;
+    const motion::LooseState<Number>& loose = state.loose;
+    if (loose.wall != contact.side || loose.place != 0 || !(contact.elapsed <= this->shortest_hop())) return false;
+    return abs(w) <= faded() * extent(state);
+  }
   /// Holds the loose mass past an instant at which the force of its wall is zero to rounding, so its sign decides
   /// nothing. After sqrt(epsilon) of a period it is clear of rounding.
   template <class Observer>
-  [[nodiscard]] Outcome wait(motion::State<Number>& state, const Number& end, std::int64_t origin, Observer& observer) {
+  [[nodiscard]] Outcome wait(motion::State<Number>& state, const Number& w, const Number& end, std::int64_t origin,
+                             Observer& observer) {
     using std::min, std::sqrt;
     const Number time = min(horizon_of(state, end), Number(sqrt(epsilon<Number>()) * this->period()));
-    press(state, state.loose.wall, Number(0), origin, observer);
+    press(state, state.loose.wall, w, origin, observer);
     const motion::Crossing<Number> crossing = move_as_one(state, Side::none, time, end, origin, observer);
     state.loose.pressed = false;
     return this->outcome_at(crossing);
@@ -135,9 +150,9 @@ class LoosePhases : public SoftPhases<Method, N, E> {
     const auto& arc = flight.arc;
     const motion::Crossing<Number>& contact = flight.contact;
     if (!contact.resolved) return this->outcome_at(contact);
-    if (contact.side != Side::none && contact.elapsed == 0 && arc.start().v == 0) {
+    if (const Number& w = arc.start().v; contact.side != Side::none && is_lost(state, contact, w)) {
       state.loose = {contact.side, Number(0), Number(0)};
-      return wait(state, end, origin, observer);
+      return wait(state, w, end, origin, observer);
     }
     const double begin = this->time(state, origin), length = static_cast<double>(contact.elapsed);
     observer.arc(arc.main(), begin, length);
