@@ -122,10 +122,12 @@ void require_stops(const Field& field, const Certificate& certificate) {
 
 std::string word_of(const Field& field) {
   const std::string word = field.text();
-  const bool has_no_impacts = word == "-" || word == "(L)" || word == "(U)";
+  const bool has_no_impacts = word == "-" || word == "(L)" || word == "(U)" || word == "(S)";
   if (!has_no_impacts && word.find_first_not_of("LU*\u2026") != std::string::npos)
-    field.refuse("is " + shown(word),
-                 "write L, U, L* and U* in the order of the impacts, (L) or (U) for a mass that stays on a stop, or -");
+    field.refuse(
+        "is " + shown(word),
+        "write L, U, L* and U* in the order of the impacts, (L) or (U) for a mass that stays on a stop, (S) for one "
+        "that friction holds for good, or -");
   return word;
 }
 

@@ -77,9 +77,11 @@ bool same_word(const std::string& claimed, const std::string& found) {
   return claimed.size() == found.size() && (found + found).find(claimed) != std::string::npos;
 }
 
-/// Motion without impacts that starts on a stop, or beyond a soft one, stays there.
+/// Motion without impacts that starts on a stop, or beyond a soft one, stays there. A mass that friction holds, and
+/// that neither turns nor is held once more in the period, is held for good: what moves has to come back.
 std::string word_without_impacts(const std::vector<Event>& events, const Scene& scene, const Ball& x) {
   const auto stays = [](Side side) { return side == Side::upper ? "(U)" : "(L)"; };
+  if (events.size() == 1 && events.front().kind == Kind::stick) return "(S)";
   const auto on_stop = std::ranges::find_if(events, [](const Event& event) { return !is_of_friction(event.kind); });
   if (on_stop != events.end()) return stays(on_stop->side);
   for (const Side side : {Side::lower, Side::upper}) {

@@ -132,7 +132,8 @@ std::vector<Contact> ImpactWord::Observer::whole_contacts(double total) const {
 ImpactWord::Values ImpactWord::Observer::finish(const ObservedSpan& span, double x, double v) const {
   Values values;
   if (!span.periodic) return values;
-  values.impact_word = word_of(whole_contacts(span.total), soft_stop_beyond(span.scene.stops, x));
+  values.impact_word =
+      is_stuck() ? std::string(stuck) : word_of(whole_contacts(span.total), soft_stop_beyond(span.scene.stops, x));
   if (span.scene.oscillator.forcing != 0) values.regime = regime_of(contacts_, span.turns);
   if (is_symmetric(span.scene)) values.symmetric = is_mirrored(span, x, v) ? 1.0 : 0.0;
   return values;

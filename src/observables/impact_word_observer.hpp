@@ -16,6 +16,7 @@ class ImpactWord::Observer {
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
+    moves_ = moves_ || length > 0;
     if (!periodic_ || !(begin <= half_ && half_ <= begin + length)) return;
     const motion::Motion<double> m = arc.at(half_ - begin);
     halfway_ = {m.x, m.v};
@@ -72,6 +73,7 @@ class ImpactWord::Observer {
   }
   /// A stick that the beginning of the period cuts is one.
   [[nodiscard]] std::vector<Contact> whole_contacts(double total) const;
+  [[nodiscard]] bool is_stuck() const { return !moves_ && stuck_until_ >= 0; }
   [[nodiscard]] bool is_mirrored(const ObservedSpan& span, double x, double v) const;
 
   bool periodic_, shows_sticks_;
@@ -79,6 +81,7 @@ class ImpactWord::Observer {
   double half_;                            ///< of the period, in tau
   std::vector<Contact> contacts_{};        ///< in order
   std::optional<PhasePoint> halfway_{};    ///< half a period after its beginning, in flight
+  bool moves_ = false;                     ///< at some time of the period
   bool is_response_ = false;               ///< the steady response without impacts
   double halfway_z_ = 0.0, last_z_ = 0.0;  ///< of a loose mass: its place half a period after the beginning, and last
 };
