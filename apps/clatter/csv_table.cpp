@@ -45,7 +45,8 @@ CsvTable::CsvTable(const results::FileSummary& summary, const std::string& path,
   for (const results::NamedLength& dimension : rows_)
     for (const std::string& name : coordinates_along(summary_, dimension)) axes_.push_back(name);
   const std::vector<std::string> known = results_in_file();
-  for (const std::string& name : choice_.only) require_known(name, known);
+  for (const std::string& name : choice_.only)  // axes have columns whatever is chosen
+    if (std::ranges::find(axes_, name) == axes_.end()) require_known(name, known);
   for (const std::string& name : known)
     if (choice_.only.empty() || is_named(name)) results_.push_back(name);
   for (const Place& place : choice_.where)

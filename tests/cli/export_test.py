@@ -112,6 +112,12 @@ class Export(CommandLine):
         one = self.table(path, "--only", "x_max", "--only", "status", "--where", "nu=0.9", "--where", "xs=-0.5")
         self.assertEqual((len(one), one["x_max"][0]), (1, 0.5))
 
+    def test_only_may_name_an_axis(self):
+        table = self.table(self.run_text("a", LOGGED), "--only", "nu,x_max")
+        self.assertEqual(list(table.columns), ["nu", "xs", "x_max"])
+        table = self.table(self.follow(), "--only", "nu,x_max")
+        self.assertEqual(list(table.columns), ["branch", "nu", "x_max"])
+
     def test_where_tells_a_rigid_stop_from_soft_ones(self):
         path = self.run_text(
             "a", LOGGED.replace("R = 0.7\n", "").replace("nu = [0.9, 1.0]", "stop_stiffness = [9, 80, inf]")
