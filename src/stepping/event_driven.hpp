@@ -35,6 +35,7 @@ class EventDriven : public LoosePhases<Method, N, E> {
       this->report(state);
       const Outcome outcome = run_phase(state, end, origin, observer);
       if (outcome != Outcome::completed) return outcome;
+      if constexpr (E.soft) this->keep_before_touch(state);
     }
     state.phase_turns = end;
     return this->outcome_of(state);

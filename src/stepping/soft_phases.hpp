@@ -29,6 +29,15 @@ class SoftPhases : public Flights<Method, N, E> {
     return side;
   }
 
+  /// Keeps a flight that is cut just where it comes to a soft stop between the stops: rounding may put it beyond, and
+  /// the touch would be passed.
+  void keep_before_touch(motion::State<Number>& state) const {
+    if (!soft_stops_ || state.within != Side::none) return;
+    const BasicStops<Number>& stops = this->stops();
+    if (is_soft(stops, Side::lower) && state.x < stops.lower) state.x = stops.lower;
+    if (is_soft(stops, Side::upper) && state.x > stops.upper) state.x = stops.upper;
+  }
+
   /// Begins a contact with a soft stop at its position. A mass that only touches, without speed, flies on.
   template <class Observer>
   [[nodiscard]] Outcome touch(motion::State<Number>& state, Side side, std::int64_t origin, Observer& observer) {
