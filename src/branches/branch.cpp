@@ -241,19 +241,24 @@ class Follower {
   /// The branch ends within a step, at a graze.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step,
                     const std::optional<std::size_t>& from) {
-    const std::optional<Narrowed> between = narrowed(equations, walk, step);
-    if (!between) return record_.fail(record_.point(equations, walk.here()), no_step);
-    if (const auto changes = halt_changes(equations, *between); !changes.empty())
-      return end_in_halt(equations, walk, *between, changes, from);
+    std::optional<Narrowed> between = narrowed(equations, walk, step);
+    if (!between) return end_without_step(equations, record_.point(equations, walk.here()), walk.here());
+    const auto end = nearest_end(any_equations(), equations, *between, near(step), settings_.tolerance);
+    double length = between->last_good.arclength - walk.here().arclength;
+    if (end && end->change) length *= 1 - 1e-4;  // where a slip vanishes, derivatives have no digits
+    if (special_between(equations, walk, length, from, !end || !end->change))
+      return record_.end(record_.point(equations, between->last_good), "born");
+    if (ends_in_halt(equations, between->last_good, end)) return;
+    if (end) between->violated = end->graze;
     const Touch touch = touch_of(equations, *between);
-    if (special_between(equations, walk, touch.last_good.arclength - walk.here().arclength, from, true))
-      return record_.end(record_.point(equations, touch.last_good), "born");
     if (touch.appears && !touch.halts && equations.shape().size() > 0 && ends_in_rest(equations, touch, step)) return;
-    const auto exact = exact_graze(any_equations(), equations.scene_at(touch.beyond.at), touch.graze(),
-                                   1e-3 * speed_unit_, symmetric_, near(step), settings_.tolerance);
+    std::optional<ExactGraze> exact;
+    if (end || !touch.halts)
+      exact = exact_graze(any_equations(), equations.scene_at(touch.beyond.at), touch.graze(), 1e-3 * speed_unit_,
+                          symmetric_, near(step), settings_.tolerance);
     if (exact && exact->joins) return end_on(*exact, equations.shape());
     BranchPoint last = record_.point(equations, touch.last_good);
-    if (!exact) return record_.add(last), record_.fail(last, no_graze);
+    if (!exact) return record_.add(last), record_.fail(last, touch.halts ? no_halt_change : no_graze);
     const Orbit with = exact->orbit,
                 without = touch.halts ? halting_at_stop(exact->scene, with, touch.impact) : with.without(touch.impact);
     last.scene = exact->scene, last.orbit = touch.appears ? without : with;
@@ -279,21 +284,14 @@ class Follower {
 
   /// No step leads on: under dry friction, as a slip vanishes.
   void end_without_step(const OrbitEquations& equations, const BranchPoint& last, const CurvePoint& here) {
-    const auto change = vanishing_slip(equations, here);
-    if (!change) return record_.fail(last, no_step);
-    end_in_change({last, equations.scene_at(here.at), settings_.largest_step}, {*change});
+    const Narrowed at{here, here, {}};
+    const auto end = nearest_end(any_equations(), equations, at, settings_.largest_step, settings_.tolerance);
+    if (!ends_in_halt(equations, here, end)) record_.fail(last, no_step);
   }
-  /// The branch ends within a step, as friction begins to hold the mass somewhere, or no longer does.
-  void end_in_halt(const OrbitEquations& equations, const Walk& walk, const Narrowed& between,
-                   const std::vector<HaltChange>& changes, const std::optional<std::size_t>& from) {
-    const BranchPoint last = record_.point(equations, between.last_good);
-    if (special_between(equations, walk, between.last_good.arclength - walk.here().arclength, from))
-      return record_.end(last, "born");
-    const double step = between.beyond.arclength - walk.here().arclength;
-    end_in_change({last, equations.scene_at(between.beyond.at), near(step)}, changes);
-  }
-  void end_in_change(const NearEnd& end, const std::vector<HaltChange>& changes) {
-    branches::end_in_change(any_equations(), settings_.tolerance, end, changes, record_, waiting_, generation_);
+  /// Ends a branch after a good point as friction begins to hold the mass somewhere, or no longer does, if it does.
+  bool ends_in_halt(const OrbitEquations& equations, const CurvePoint& last, const std::optional<FrictionEnd>& end) {
+    if (!end || !end->change) return false;
+    return end_in_change(*end, record_.point(equations, last), record_, waiting_, generation_), true;
   }
 
   /// The branch ends on a motion that repeats sooner, or is symmetric, as that grazes soft stops, whose dampers change
@@ -343,7 +341,9 @@ class Follower {
 }  // namespace
 
 Branches follow_branches(const StartProblem& problem, const BranchSettings& settings) {
-  return Follower(problem, settings).run();
+  Branches found = Follower(problem, settings).run();
+  found.word_sticks = problem.observe.word && problem.observe.word_sticks;
+  return found;
 }
 
 }  // namespace clatter::branches

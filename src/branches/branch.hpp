@@ -33,7 +33,8 @@ enum class SpecialKind : std::uint8_t {
   crossing_sliding,   ///< under dry friction: a reversal of a slip becomes a stick, or the other way round
   grazing_sliding,    ///< likewise: a slip whose velocity just comes to 0 gains a stick, or the other way round
   switching_sliding,  ///< likewise: a reversal and the slip to a stick vanish, or appear before it
-  neimark_sacker      ///< of a loose mass: a pair of multipliers leaves the unit circle
+  neimark_sacker,     ///< of a loose mass: a pair of multipliers leaves the unit circle
+  motion_ceases       ///< under dry friction: it comes up to the force, and beyond holds the mass for good
 };
 [[nodiscard]] std::string_view name_of(SpecialKind kind);
 /// What may be born there, if anything.
@@ -80,6 +81,7 @@ struct Branches {
   std::vector<SpecialPoint> special;
   std::vector<BranchEnd> ends;
   OfBirths<std::size_t> left_out{};  ///< special points with a birth that isn't followed
+  bool word_sticks = false;          ///< words of the motions have a letter for each stick
 };
 
 /// Follows the branch of a problem both ways from its start, and what it leads to. Throws StartError if the scene

@@ -41,7 +41,7 @@ class Columns {
   }
 
   /// The variables that describe each motion.
-  void add_motions(const std::vector<BranchPoint>& points, const BranchSettings& settings) {
+  void add_motions(const std::vector<BranchPoint>& points, const BranchSettings& settings, bool word_sticks) {
     std::vector<double> value, second, x, v, period, symmetric, re, im;
     std::vector<std::uint8_t> stable;
     std::vector<std::string> word, regime;
@@ -54,7 +54,7 @@ class Columns {
       value.push_back(value_of(point.scene, settings.along));
       if (settings.across) second.push_back(value_of(point.scene, *settings.across));
       x.push_back(state.x), v.push_back(state.v);
-      period.push_back(point.orbit.period_ratio()), word.push_back(point.orbit.word());
+      period.push_back(point.orbit.period_ratio()), word.push_back(point.orbit.word(word_sticks));
       regime.push_back(point.orbit.regime());
       symmetric.push_back(is_symmetric(point.scene) ? point.orbit.mirrored : no_value);
       stable.push_back(point.stable);
@@ -73,7 +73,8 @@ class Columns {
     add("x", Quantity::length, std::move(x), "displacement at forcing phase 0");
     add("v", Quantity::velocity, std::move(v), "velocity at forcing phase 0");
     add("period_ratio", std::move(period), "period of the motion over the forcing period");
-    add("word", std::move(word), "impacts of one period in order, L and U");
+    add("word", std::move(word),
+        word_sticks ? "impacts of one period in order, L and U; S: stick" : "impacts of one period in order, L and U");
     dataset_.variables.back().missing_if = "no stop is hit";
     add("regime", std::move(regime), "impacts on one stop over forcing periods");
     add("symmetric", std::move(symmetric), "1: the motion is its own mirror image; NaN: the scene isn't symmetric");
@@ -152,7 +153,7 @@ results::Dataset branch_dataset(const Branches& branches, const BranchSettings& 
   dataset.dimensions.push_back({"multiplier", in_housing ? 4U : 2U});
   points.add("branch", std::move(branch), settings.across ? "number of the curve" : "number of the branch");
   points.add("arclength", std::move(arclength), "along the branch or curve, over the width of its range");
-  points.add_motions(branches.points, settings);
+  points.add_motions(branches.points, settings, branches.word_sticks);
 
   if (settings.births) dataset.attributes.emplace_back("births_left_out", births_text(branches.left_out));
   std::size_t most = 1;
@@ -173,7 +174,7 @@ results::Dataset branch_dataset(const Branches& branches, const BranchSettings& 
   specials.add("branch", std::move(meeting), "numbers of the branches, or the curves, that meet there; -1: no more",
                {"meeting"});
   if (settings.births) specials.add("left_out", std::move(left_out), "1: a birth there isn't followed");
-  specials.add_motions(at, settings);
+  specials.add_motions(at, settings, branches.word_sticks);
   sweep::add_drawn_names(units.is_si, dataset, in_housing);
   name_observables(dataset);
   return dataset;

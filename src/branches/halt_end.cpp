@@ -1,28 +1,72 @@
 #include "branches/halt_end.hpp"
 
 #include <algorithm>
+#include <limits>
+
+#include "branches/walk/slip_violation.hpp"
 
 namespace clatter::branches {
+namespace {
 
-void end_in_change(const Equations& equations, double tolerance, const NearEnd& end,
-                   const std::vector<HaltChange>& changes, Record& record, std::deque<Waiting>& waiting,
+/// The grazes that violations may be: an impact without speed, or a reversal on a stop.
+std::vector<Violation> grazes_of(const Orbit& orbit, const std::vector<Violation>& violations) {
+  std::vector<Violation> grazes;
+  for (const Violation& violation : violations) {
+    const bool reaches = violation.kind == Violation::Kind::passes_through &&
+                         orbit.impact(violation.impact + 1).event == EventKind::reversal;
+    if (reaches || violation.kind == Violation::Kind::pulls) grazes.push_back(violation);
+  }
+  return grazes;
+}
+
+/// How far a value lies outside of an interval that two others bound in any order; nothing less than rounding.
+double outside(double value, double one, double other) {
+  constexpr double rounding = 1e-9;
+  const auto [low, high] = std::minmax(one, other);
+  const double off = std::max(low - value, value - high);
+  return off <= rounding ? 0.0 : off;
+}
+
+}  // namespace
+
+std::optional<FrictionEnd> nearest_end(const Equations& builder, const OrbitEquations& walked, const Narrowed& between,
+                                       double within, double tolerance) {
+  const FollowedScene beyond = walked.scene_at(between.beyond.at);
+  if (!has_friction(beyond.friction)) return std::nullopt;
+  const std::vector<Violation> violations = slip_violations(beyond, walked.orbit_at(between.beyond.at), {});
+  const auto& [parameter, unit] = walked.axes().front();
+  std::optional<FrictionEnd> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  const auto consider = [&](const std::optional<ExactGraze>& exact, auto&&... what) {
+    if (!exact) return;
+    const double off =
+        outside(value_of(exact->scene, parameter) / unit, between.last_good.at.back(), between.beyond.at.back());
+    if (off < least) least = off, nearest = FrictionEnd{*exact, what...};
+  };
+  for (const HaltChange& change : halt_changes(walked, between, violations))
+    consider(exact_change(builder, beyond, change, within, tolerance), change);
+  for (const Violation& graze : grazes_of(walked.shape(), violations)) {
+    const Touch touch = touch_of(walked, {between.last_good, between.beyond, graze});
+    consider(exact_graze(builder, beyond, touch.graze(), 0.0, false, within, tolerance), std::nullopt, graze);
+  }
+  return nearest;
+}
+
+void end_in_change(const FrictionEnd& end, const BranchPoint& last_good, Record& record, std::deque<Waiting>& waiting,
                    std::int64_t generation) {
-  std::optional<ExactGraze> exact;
-  const auto found = std::ranges::find_if(changes, [&](const HaltChange& change) {
-    return (exact = exact_change(equations, end.beyond, change, end.within, tolerance)).has_value();
-  });
-  if (found == changes.end()) return record.add(end.last), record.fail(end.last, no_halt_change);
-  const HaltChange& change = *found;
-  const auto with_form = [&](HaltForm form) { return formed(exact->scene, exact->orbit, exact->impact, form); };
-  BranchPoint at = end.last;
-  at.scene = exact->scene, at.orbit = with_form(change.before.value_or(HaltForm::stick));
-  const BranchPoint& last = change.before ? at : end.last;
+  const ExactGraze& exact = end.exact;
+  const HaltChange& change = *end.change;
+  const auto with_form = [&](HaltForm form) { return formed(exact.scene, exact.orbit, exact.impact, form); };
+  BranchPoint at = last_good;
+  at.scene = exact.scene, at.orbit = with_form(change.before.value_or(HaltForm::stick));
+  const BranchPoint& last = change.before && !exact.joins ? at : last_good;
   record.add(last);
   const auto [special, is_new] = record.note(change.kind, at, change.condition);
   record.end(last, std::string(name_of(change.kind)));
   if (!is_new || !(change.beyond || change.strikes)) return no_longer_waits(waiting, special, last.orbit);
-  waiting.push_back({exact->scene, with_form(change.beyond.value_or(HaltForm::stick)), {}, special, generation});
-  if (change.strikes) waiting.back().opens = exact->impact;
+  waiting.push_back({exact.scene, with_form(change.beyond.value_or(HaltForm::stick)), {}, special, generation});
+  if (change.strikes) waiting.back().opens = exact.impact;
+  if (exact.joins && change.before) waiting.push_back({exact.scene, at.orbit, {}, special, generation});
 }
 
 }  // namespace clatter::branches

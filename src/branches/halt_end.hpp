@@ -5,16 +5,19 @@
 
 namespace clatter::branches {
 
-/// A branch near its end.
-struct NearEnd {
-  BranchPoint last;      ///< good
-  FollowedScene beyond;  ///< near the end, or a little beyond it
-  double within;         ///< that the end lies of it, over the width of the parameter's range
+/// How a branch under dry friction ends, at its exact place: in a change of halts, or in the graze of a violation.
+struct FrictionEnd {
+  ExactGraze exact;
+  std::optional<HaltChange> change{};  ///< nothing: a graze
+  Violation graze{};
 };
+/// What is nearest to where a branch was found to end, if anything is within a distance of that over the width of the
+/// parameter's range: next to one of them rounding decides which violations are found, and in which order.
+[[nodiscard]] std::optional<FrictionEnd> nearest_end(const Equations& builder, const OrbitEquations& walked,
+                                                     const Narrowed& between, double within, double tolerance);
 
-/// Ends a branch in the first change of its halts that is near; the motion beyond waits.
-void end_in_change(const Equations& equations, double tolerance, const NearEnd& end,
-                   const std::vector<HaltChange>& changes, Record& record, std::deque<Waiting>& waiting,
+/// Ends a branch in a change of its halts, after its last good point; the motion beyond waits.
+void end_in_change(const FrictionEnd& end, const BranchPoint& last_good, Record& record, std::deque<Waiting>& waiting,
                    std::int64_t generation);
 
 }  // namespace clatter::branches

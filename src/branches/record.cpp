@@ -9,7 +9,7 @@
 namespace clatter::branches {
 namespace {
 
-constexpr std::array<std::string_view, 15> special_names{"fold",
+constexpr std::array<std::string_view, 16> special_names{"fold",
                                                          "flip",
                                                          "symmetry breaking",
                                                          "graze",
@@ -23,7 +23,8 @@ constexpr std::array<std::string_view, 15> special_names{"fold",
                                                          "crossing-sliding",
                                                          "grazing-sliding",
                                                          "switching-sliding",
-                                                         "Neimark-Sacker"};
+                                                         "Neimark-Sacker",
+                                                         "motion ceases"};
 
 bool meet(const std::vector<attractors::SectionState>& one, const std::vector<attractors::SectionState>& other,
           double within) {

@@ -70,6 +70,20 @@ class BranchFriction(BranchRuns):
             np.testing.assert_allclose(data["multiplier_re"][k], [0.267959696315445, 0], rtol=0, atol=1e-13)
             self.assertEqual(data["word"][k], b"LU")
 
+    def test_words_have_letters_for_sticks(self):
+        """With word_sticks the words of a branch are those of runs of its points."""
+        observe = "[observe]\nword = true\nword_sticks = {}\n"
+        along = ALONG.format(along="nu", low=1.29, high=1.31)
+        for shown, word in (("true", "LSU"), ("false", "LU")):
+            special = self.special_points(STOPS.replace("1.3", "1.305") + along + observe.format(shown))
+            self.assertTrue(all(("S" in point["word"]) == (shown == "true") for point in special), special)
+            with h5py.File(self.directory / "a.branch.h5") as data:
+                self.assertEqual(set(data["word"][()]), {word.encode()})
+        self.write("b.toml", STOPS + observe.format("true"))
+        self.assertEqual(self.clatter("run", "b.toml", "-o", "b.h5", "-q", "--force").returncode, 0)
+        with h5py.File(self.directory / "b.h5") as data:
+            self.assertEqual(data["impact_word"][()], b"LSU")
+
     def test_branches_in_si_are_those_of_the_scene(self):
         """Mass 1 kg, stiffness 1 N/m: the units are those of the scene."""
         machine = (

@@ -33,6 +33,13 @@ bool OrbitEquations::grazes_outside() const {
   return std::ranges::find(conditions_, Condition::Kind::graze, &Condition::kind) != conditions_.end();
 }
 
+bool OrbitEquations::is_released_at_crest(std::size_t halt) const {
+  return std::ranges::any_of(conditions_, [&](const Condition& condition) {
+    return condition.kind == Condition::Kind::tangency && condition.impact == halt &&
+           condition.side == shape_.impacts[halt].side;
+  });
+}
+
 Vector OrbitEquations::unknowns_of(const FollowedScene& scene, const Orbit& orbit) const {
   Vector z(unknowns());
   for (std::size_t i = 0; i < orbit.size(); ++i) {
@@ -80,7 +87,8 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
     const Flights<First, E> flights(numbers_along<First>(scene, axes_));
     const std::size_t count = orbit.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const Flight<First> flight = flight_of<First>(orbit, i);
+      Flight<First> flight = flight_of<First>(orbit, i);
+      flight.from_crest = is_released_at_crest(i);
       if (flight.leaves == EventKind::stick && !(flights.start(flight) < flight.end)) return false;
       const FlightEnd<First> end = flights.fly(flight);
       const bool closes = i + 1 == count;

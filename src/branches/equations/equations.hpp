@@ -82,6 +82,9 @@ class OrbitEquations {
   [[nodiscard]] std::optional<std::size_t> grazing() const;
   /// Whether that is the touch of a stop without speed.
   [[nodiscard]] bool grazes_outside() const;
+  /// Whether a condition makes the release of a stick one at the crest of the push, where the formula of it is
+  /// singular.
+  [[nodiscard]] bool is_released_at_crest(std::size_t halt) const;
 
  private:
   /// The flights of a loose mass in its housing, and the equation of one of its multipliers.

@@ -37,6 +37,7 @@ struct Flight {
   Side to;
   Number end;
   EventKind leaves = EventKind::impact, arrives = EventKind::impact;
+  bool from_crest = false;  ///< after a stick whose release is at the crest of the push, just as strong as the level
 
   /// Whether it is a contact with a soft stop, or an interruption of one: these become infinitely short where they
   /// vanish. An interruption lies beyond the stop's position, but without a damper, on the other side of it.
@@ -95,21 +96,25 @@ class Flights {
   }
   /// The forcing phase, rad, from which on so strong a push rises beyond the static level (the guide's formula), less
   /// that at which the mass halts: negative if that is later, up to the push's crest. Infinite: it never or always is
-  /// beyond.
+  /// beyond. A crest that is the level to rounding is the release.
   [[nodiscard]] Number hold(const Number& place, const Number& phase, Side side) const {
     using std::abs, std::atan, std::sqrt;
-    constexpr double turn = 2 * std::numbers::pi, quarter = turn / 4;
-    const double sign = sign_of(side);
-    const Number needed = p_.friction.static_level - sign * constants_.constant_force(Number(p_.middle() + place)),
-                 sine = needed / abs(constants_.f), rising = atan(sine / sqrt((1 - sine) * (1 + sine)));
+    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+    const Number needed =
+                     p_.friction.static_level - sign_of(side) * constants_.constant_force(Number(p_.middle() + place)),
+                 sine = needed / abs(constants_.f);
+    if (sine >= 1 && sine <= 1 + rounding) return hold_to_crest(phase, side);
     if (sine >= 1 || sine <= -1) return (sine > 0 ? 1 : -1) * std::numeric_limits<double>::infinity();
-    const Number of_push = phase + lead_ + (sign * constants_.f < 0 ? std::numbers::pi : 0.0);
-    const double turns = std::round((static_cast<double>(of_push) + quarter) / turn);
-    return rising - (of_push - turn * turns);
+    return atan(sine / sqrt((1 - sine) * (1 + sine))) - of_push(phase, side);
+  }
+  /// The forcing phase, rad, from that at which the mass halts on to the crest of the push.
+  [[nodiscard]] Number hold_to_crest(const Number& phase, Side side) const {
+    return std::numbers::pi / 2 - of_push(phase, side);
   }
   /// The phase at which motion begins after the event that a flight begins with.
   [[nodiscard]] Number start(const Flight<Number>& flight) const {
     if (flight.leaves != EventKind::stick) return flight.begin;
+    if (flight.from_crest) return flight.begin + hold_to_crest(flight.begin, flight.from);
     return flight.begin + hold(flight.before, flight.begin, flight.from);
   }
 
@@ -176,6 +181,13 @@ class Flights {
   /// The constants of motion towards a side.
   [[nodiscard]] const motion::ArcConstants<Number, E>& towards(Side side) const {
     return slips_ ? slips_->towards(side) : constants_;
+  }
+
+  /// The phase of the push to a side from zero on its way up, between the crests: -3 pi/2 ... pi/2.
+  [[nodiscard]] Number of_push(const Number& phase, Side side) const {
+    constexpr double turn = 2 * std::numbers::pi, quarter = turn / 4;
+    const Number of = phase + lead_ + (sign_of(side) * constants_.f < 0 ? std::numbers::pi : 0.0);
+    return of - turn * std::round((static_cast<double>(of) + quarter) / turn);
   }
 
   [[nodiscard]] Response<Number> free_response() const {

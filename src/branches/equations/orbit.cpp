@@ -21,9 +21,10 @@ OrbitImpact later(OrbitImpact impact, double advance) {
   return impact;
 }
 
-std::vector<ImpactWord::Contact> contacts_of(const Orbit& orbit) {
+std::vector<ImpactWord::Contact> contacts_of(const Orbit& orbit, bool with_sticks = false) {
   std::vector<ImpactWord::Contact> contacts;
   for (const OrbitImpact& impact : orbit.whole().impacts) {
+    if (with_sticks && impact.event == EventKind::stick) contacts.push_back({impact.phase, 0.0, Side::none});
     if (!impact.is_letter()) continue;
     const bool grazes = impact.before == 0 && impact.rest == 0;  // an impact, too: without speed it would be a rest
     contacts.push_back({impact.phase, grazes ? 1.0 : impact.before, impact.side});
@@ -154,9 +155,9 @@ Orbit Orbit::once_with_graze(std::size_t i, bool symmetric_scene) const {
 }
 
 /// Motion without a letter whose soft stop is left or meets the mass again does so beyond the stop's position.
-std::string Orbit::word() const {
+std::string Orbit::word(bool with_sticks) const {
   const Side soft = meets_soft_stop() && !impacts.empty() ? impacts.front().side : pressed;
-  return ImpactWord::word_of(contacts_of(*this), soft);
+  return ImpactWord::word_of(contacts_of(*this, with_sticks), soft);
 }
 std::string Orbit::regime() const { return ImpactWord::regime_of(contacts_of(*this), period_ratio()); }
 

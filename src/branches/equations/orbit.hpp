@@ -84,7 +84,8 @@ struct Orbit {
   /// grazes in one of them grazes in all.
   [[nodiscard]] Orbit once_with_graze(std::size_t i, bool symmetric_scene) const;
 
-  [[nodiscard]] std::string word() const;    ///< as `ImpactWord` gives it
+  /// As `ImpactWord` gives it, if so said with a letter for each stick.
+  [[nodiscard]] std::string word(bool with_sticks = false) const;
   [[nodiscard]] std::string regime() const;  ///< likewise
 };
 

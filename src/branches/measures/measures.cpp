@@ -200,8 +200,16 @@ observables::Extrema::Values extrema_as_computed(const FollowedScene& scene, con
   const Orbit whole = orbit.whole();
   if (has_loose_mass(scene.loose)) return extrema_in_housing(scene, whole, std::nullopt);
   observables::Extrema::Observer extrema;
-  each_flight(scene, whole, [&](const auto& arc, double begin, double length) { extrema.arc(arc, begin, length); });
+  bool moves = false;
+  each_flight(scene, whole, [&](const auto& arc, double begin, double length) {
+    moves = moves || !(length <= 0);
+    extrema.arc(arc, begin, length);
+  });
   const SceneNumbers<double> p = numbers_of<double>(scene);
+  if (!moves) {  // where motion ceases
+    const double x = p.middle() + whole.impacts[0].place;
+    extrema.include({x, x}, {0.0, 0.0});
+  }
   for (const OrbitImpact& impact : whole.impacts) {
     if (impact.event != EventKind::impact) continue;  // the arcs have all others
     const double x = p.position(impact.side);

@@ -1,9 +1,11 @@
 #include "branches/walk/halt_change.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "branches/equations/flight.hpp"
 #include "branches/equations/newton.hpp"
+#include "branches/walk/ceasing.hpp"
 #include "branches/walk/slip_violation.hpp"
 
 namespace clatter::branches {
@@ -39,20 +41,30 @@ bool push_rises(const FollowedScene& scene, const OrbitImpact& halt) {
   return sign_of(halt.side) * force.amplitude * std::cos(halt.phase + force.lead) > 0;
 }
 
-/// The velocity falls to 0 in a slip, which goes on at once: beyond, after a stick.
+/// The velocity falls to 0 in a slip, which goes on at once: beyond, after a stick. If that is a long one, as the
+/// static level is above the kinetic one, the slip goes on here as from a reversal to where it was going.
 HaltChange grazing(const Orbit& orbit, const FollowedScene& scene, const Violation& found, bool jumps) {
   const std::size_t halt = found.impact + 1;
-  HaltChange change{SpecialKind::grazing_sliding, jumps ? orbit.with(found.turning, halt) : with_halts(scene, orbit),
+  OrbitImpact pause = found.turning;
+  pause.event = EventKind::reversal;
+  HaltChange change{SpecialKind::grazing_sliding, jumps ? orbit.with(pause, halt) : with_halts(scene, orbit),
                     level(jumps ? Kind::kinetic : Kind::level, halt, found.turning.side), HaltForm::none};
   if (!jumps) change.beyond = HaltForm::stick;
   return change;
 }
 
-/// The first event of an orbit and the stick after it as one stick.
-Orbit merged(const Orbit& orbit) {
-  Orbit one = orbit.without(0);
-  one.impacts[0].phase = orbit.impacts[0].phase;
+/// An event of an orbit and the stick after it as one stick.
+Orbit merged(const Orbit& orbit, std::size_t event = 0) {
+  Orbit one = orbit.without(event);
+  one.impacts[event].phase = orbit.impacts[event].phase;
   return one;
+}
+
+/// Whether the slip from an event to a stick is about to vanish.
+bool is_about_to_vanish(const FollowedScene& scene, const OrbitImpact& from, const OrbitImpact& to) {
+  constexpr double about_to_vanish = 1e-3;  // rad
+  const double begin = from.phase + (from.event == EventKind::stick ? held(scene, from) : 0.0);
+  return to.event == EventKind::stick && to.phase - begin < about_to_vanish;
 }
 
 /// A reversal comes to be a stick: a short one, or one that begins as the slip after it has become no more, or at once.
@@ -115,24 +127,80 @@ Orbit formed(const FollowedScene& scene, const Orbit& orbit, std::size_t halt, H
   return out;
 }
 
-std::optional<ExactGraze> exact_change(const Equations& equations, const FollowedScene& near, const HaltChange& change,
-                                       double within, double tolerance) {
-  const OrbitEquations there = equations(change.orbit, {change.condition});
+namespace {
+
+/// The first of the repetitions of an orbit, if it has an odd number of them.
+Orbit first_of_odd(const Orbit& orbit, double tolerance) {
+  for (const int parts : {3, 5, 7}) {
+    const std::size_t size = orbit.size() / static_cast<std::size_t>(parts);
+    if (orbit.mirrored || orbit.size() % static_cast<std::size_t>(parts) != 0 || orbit.half_turns % (2 * parts) != 0)
+      continue;
+    const Orbit one{{orbit.impacts.begin(), orbit.impacts.begin() + static_cast<std::ptrdiff_t>(size)},
+                    orbit.half_turns / parts};
+    const Orbit all = one.repeated(parts);
+    const bool repeats =
+        std::ranges::equal(all.impacts, orbit.impacts, [&](const OrbitImpact& a, const OrbitImpact& b) {
+          return a.side == b.side && a.event == b.event && std::abs(a.phase - b.phase) <= tolerance &&
+                 std::abs(a.coordinate() - b.coordinate()) <= tolerance * (std::abs(a.coordinate()) + tolerance);
+        });
+    if (repeats) return first_of_odd(one, tolerance);
+  }
+  return orbit;
+}
+
+/// Whether motion may be its own mirror image: between stops that are each other's, or where it doesn't meet them.
+bool may_be_mirrored(const FollowedScene& scene, const Orbit& orbit, const Condition& condition) {
+  if (is_symmetric(scene)) return true;
+  return condition.kind != Kind::on_stop && scene.oscillator.stiffness != 0 &&
+         std::ranges::all_of(orbit.impacts, halts, &OrbitImpact::event);
+}
+
+/// A change that comes to the motion in each of its repetitions, or also in its mirror image, as that of the first one:
+/// the equations of all of them at once are singular.
+HaltChange once_of(HaltChange change, const FollowedScene& scene) {
+  constexpr double same = 1e-4;
+  const Orbit first = first_of_odd(change.orbit, same),
+              once = first.half_if_same(same, may_be_mirrored(scene, first, change.condition));
+  const std::size_t repetition = change.condition.impact / once.size();
+  if (once.mirrored && repetition % 2 == 1) change.condition.side = opposite(change.condition.side);
+  change.condition.impact %= once.size();
+  change.orbit = once;
+  return change;
+}
+
+std::optional<ExactGraze> solved(const OrbitEquations& there, const FollowedScene& near, const HaltChange& change,
+                                 double within, double tolerance) {
   const Vector guess = there.unknowns_of(near, change.orbit);
   const auto exact = solution(there, guess, tolerance);
   if (!exact || std::abs(exact->back() - guess.back()) > within) return std::nullopt;
   return ExactGraze{there.scene_at(*exact), there.orbit_at(*exact), change.condition.impact};
 }
 
+}  // namespace
+
+std::optional<ExactGraze> exact_change(const Equations& equations, const FollowedScene& near, const HaltChange& change,
+                                       double within, double tolerance) {
+  const OrbitEquations there = equations(change.orbit, {change.condition});
+  if (change.kind == SpecialKind::motion_ceases) return where_motion_ceases(there, near, change.orbit, within);
+  const HaltChange once = once_of(change, near);
+  if (once.orbit.half_turns == change.orbit.half_turns) return solved(there, near, change, within, tolerance);
+  auto exact = solved(equations(once.orbit, {once.condition}), near, once, within, tolerance);
+  if (!exact) return exact;
+  const Parameter along = there.axes().front().parameter;
+  if (once.orbit.mirrored && !(is_symmetric(near) && keeps_symmetry(near, along))) exact->orbit = exact->orbit.whole();
+  exact->joins = exact->orbit.half_turns != change.orbit.half_turns;
+  return exact;
+}
+
 std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at) {
-  constexpr double about_to_vanish = 1e-3;  // rad
   const FollowedScene scene = equations.scene_at(at.at);
   const Orbit orbit = equations.orbit_at(at.at);
   for (std::size_t i = 0; i < orbit.size() && orbit.size() > 1; ++i) {
     const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
-    const double begin = from.phase + (from.event == EventKind::stick ? held(scene, from) : 0.0);
-    if (to.event != EventKind::stick || !(to.phase - begin < about_to_vanish)) continue;
-    const Orbit one = merged(orbit.from_event(i));
+    if (!is_about_to_vanish(scene, from, to)) continue;
+    Orbit one = merged(orbit.from_event(i));
+    for (std::size_t k = one.size() - 1; k-- > 1;)  // those of its repetitions, or of its mirror image, at once
+      if (is_about_to_vanish(scene, one.impacts[k], one.impacts[k + 1])) one = merged(one, k);
     if (from.event == EventKind::impact)
       return HaltChange{SpecialKind::graze, one, level(Kind::on_stop, 0, from.side), {}, HaltForm::stick};
     if (from.event == EventKind::stick)
@@ -144,17 +212,17 @@ std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const 
 
 namespace {
 
-/// That of a violation, if it is one of halts that are there.
-std::optional<HaltChange> of_violation(const OrbitEquations& equations, const Narrowed& found) {
-  const FollowedScene scene = equations.scene_at(found.beyond.at);
-  const Orbit orbit = equations.orbit_at(found.beyond.at);
-  const std::size_t i = found.violated.impact;
+/// That of a violation, if it is one of halts.
+std::optional<HaltChange> of_violation(const OrbitEquations& equations, const CurvePoint& at, const Violation& found) {
+  const FollowedScene scene = equations.scene_at(at.at);
+  const Orbit orbit = equations.orbit_at(at.at);
+  const std::size_t i = found.impact;
   const bool jumps = scene.friction.static_level > scene.friction.kinetic;
-  switch (found.violated.kind) {
+  switch (found.kind) {
     case Violation::Kind::passes_through:
       return orbit.size() > 0 ? reaching(orbit, (i + 1) % orbit.size()) : std::nullopt;
     case Violation::Kind::halts:
-      return grazing(orbit, scene, found.violated, jumps);
+      return grazing(orbit, scene, found, jumps);
     case Violation::Kind::runs_on:
       return HaltChange{SpecialKind::grazing_sliding, orbit, level(Kind::kinetic, i, orbit.heading_before(i)),
                         HaltForm::stick};
@@ -170,12 +238,36 @@ std::optional<HaltChange> of_violation(const OrbitEquations& equations, const Na
   }
 }
 
+/// The releases that are about to vanish at the crest of the force.
+void add_releases_at_crest(const OrbitEquations& equations, const CurvePoint& at, std::vector<HaltChange>& changes) {
+  constexpr double near_crest = 0.1;  // rad
+  const FollowedScene scene = equations.scene_at(at.at);
+  const Orbit orbit = equations.orbit_at(at.at);
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const OrbitImpact& stick = orbit.impacts[i];
+    if (stick.event != EventKind::stick) continue;
+    const double before = of_flights(scene, [&](const auto& flights) {
+      return flights.hold_to_crest(stick.phase, stick.side) - flights.hold(stick.place, stick.phase, stick.side);
+    });
+    if (before < near_crest)
+      changes.push_back({SpecialKind::release_tangency, orbit, level(Kind::tangency, i, stick.side), HaltForm::stick});
+  }
+}
+
 }  // namespace
 
-std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found) {
+std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found,
+                                     const std::vector<Violation>& violations) {
+  constexpr double about_to_cease = 0.1;  // rad
+  const FollowedScene scene = equations.scene_at(found.last_good.at);
+  const Orbit orbit = equations.orbit_at(found.last_good.at);
+  if (hardly_slips(scene, orbit, about_to_cease))
+    return {{SpecialKind::motion_ceases, orbit, level(Kind::tangency, 0, orbit.impacts[0].side)}};
   std::vector<HaltChange> changes;
-  for (const auto& change : {of_violation(equations, found), vanishing_slip(equations, found.last_good)})
-    if (change) changes.push_back(*change);
+  for (const Violation& violation : violations)
+    if (const auto change = of_violation(equations, found.beyond, violation)) changes.push_back(*change);
+  if (const auto change = vanishing_slip(equations, found.last_good)) changes.push_back(*change);
+  add_releases_at_crest(equations, found.last_good, changes);
   return changes;
 }
 

@@ -25,9 +25,10 @@ struct HaltChange {
 /// That of the shortest slip to a halt, if it is about to vanish: what begins it and that halt become one stick.
 [[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at);
 
-/// Those that a violation may be, the likeliest first; none if it is none of halts. As a slip vanishes, rounding
-/// decides which violation is found.
-[[nodiscard]] std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found);
+/// Those that may be near an end of a branch with these violations beyond, the likeliest first; none if it is none of
+/// halts. As a slip vanishes, rounding decides which violation is found.
+[[nodiscard]] std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found,
+                                                   const std::vector<Violation>& violations);
 
 /// The scene and the motion of a change within a distance of the parameter, over the width of its range; nothing if
 /// there is none.

@@ -1,6 +1,7 @@
 #include "branches/walk/slip_violation.hpp"
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "branches/equations/links.hpp"
@@ -10,6 +11,17 @@ namespace clatter::branches {
 namespace {
 
 constexpr double shortest = 1e-9;  // rad, of a slip
+
+/// Whether all that an orbit does is to slip from stick to stick, for less than some phase each time.
+template <Effects E>
+bool slips_for_less(const Flights<double, E>& flights, const Orbit& orbit, double less_than) {
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const Flight<double> flight = detail::flight_of<double>(orbit, i);
+    if (flight.leaves != EventKind::stick || flight.arrives != EventKind::stick) return false;
+    if (!(flight.end - flights.start(flight) < less_than)) return false;
+  }
+  return orbit.size() > 0;
+}
 
 /// Whether friction holds a mass where an orbit says so, and lets it go where it says so.
 template <Effects E>
@@ -48,6 +60,9 @@ std::optional<Violation> in_flight(const Flights<double, E>& flights, const Orbi
       return std::nullopt;
     if (meets) return Violation{Violation::Kind::passes_through, i, {ahead, flight.end, 0.0}};
     const double turn = turning_time(arc, velocity, crossing.elapsed);
+    // beside a graze the velocity and the way to the stop fall to 0 at once: the impact has no speed
+    if (flight.arrives == EventKind::impact && turn > length)
+      return Violation{Violation::Kind::pulls, (i + 1) % orbit.size(), {}};
     return Violation{
         Violation::Kind::halts,
         i,
@@ -55,23 +70,42 @@ std::optional<Violation> in_flight(const Flights<double, E>& flights, const Orbi
   });
 }
 
+/// Whether friction is nearly up to the force, and all slips are short: of the way to where it is, their lengths are
+/// three times the root of its double.
+template <Effects E>
+bool ceases(const Flights<double, E>& flights, const Orbit& orbit) {
+  constexpr double short_slip = 1e-2, near = 1e-5;  // rad; of the force
+  const double force = std::abs(flights.constants().f);
+  return std::abs(force - flights.parameters().friction.static_level) <= near * force &&
+         slips_for_less(flights, orbit, short_slip);
+}
+
 }  // namespace
 
-std::optional<Violation> slip_violation(const FollowedScene& scene, const Orbit& orbit,
-                                        std::optional<std::size_t> grazing) {
-  return with_arcs(scene, [&]<Effects E>() -> std::optional<Violation> {
+std::vector<Violation> slip_violations(const FollowedScene& scene, const Orbit& orbit,
+                                       std::optional<std::size_t> grazing) {
+  std::vector<Violation> found;
+  const auto add = [&](const std::optional<Violation>& violation) {
+    if (violation) found.push_back(*violation);
+  };
+  with_arcs(scene, [&]<Effects E>() {
     const Flights<double, E> flights{numbers_of<double>(scene)};
+    if (ceases(flights, orbit)) found.push_back({Violation::Kind::ceases, 0, {}});
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const OrbitImpact& event = orbit.impacts[i];
       if (i == grazing) continue;
       if (!halts(event.event) && !(sign_of(event.side) * event.before > 0))
-        return Violation{Violation::Kind::pulls, i, {}};
-      if (halts(event.event))
-        if (const auto found = at_halt(flights, orbit, i)) return found;
+        found.push_back({Violation::Kind::pulls, i, {}});
+      if (halts(event.event)) add(at_halt(flights, orbit, i));
     }
-    for (std::size_t i = 0; i < orbit.size(); ++i)
-      if (const auto found = in_flight(flights, orbit, i)) return found;
-    return std::nullopt;
+    for (std::size_t i = 0; i < orbit.size(); ++i) add(in_flight(flights, orbit, i));
+  });
+  return found;
+}
+
+bool hardly_slips(const FollowedScene& scene, const Orbit& orbit, double less_than) {
+  return with_arcs(scene, [&]<Effects E>() {
+    return slips_for_less(Flights<double, E>{numbers_of<double>(scene)}, orbit, less_than);
   });
 }
 

@@ -1,6 +1,7 @@
 #include "branches/walk/special_points.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "branches/equations/housing_multipliers.hpp"
 #include "branches/measures/measures.hpp"
@@ -45,12 +46,14 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
       return f.kind == SpecialKind::neimark_sacker && !characteristic(f.point).would_be_complex();
     });
   } else if (has_impacts) {
-    look(
-        loses,
-        [&](const CurvePoint& p) {
-          return impact_map(equations.scene_at(p.at), equations.orbit_at(p.at)).distance_to(-1);
-        },
-        false, begin);
+    // where a slip to a stick vanishes, a multiplier may come to -1 as its length squared: no further than to rounding
+    const double rounding = equations.shape().halts() ? 1e-8 : 0.0;
+    const auto distance = [&, rounding](const CurvePoint& p) {
+      const ImpactMap map = impact_map(equations.scene_at(p.at), equations.orbit_at(p.at));
+      const double off = map.distance_to(-1);
+      return std::abs(off) <= rounding * std::abs(map.denominator) ? std::copysign(off, map.denominator) : off;
+    };
+    look(loses, distance, false, begin);
   }
   if (has_impacts || equations.shape().pressed != Side::none) {
     const double aside = 1e-2 * step, from = is_first ? aside : 0.0, to = ends.ends_in_graze ? step - aside : step;

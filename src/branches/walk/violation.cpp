@@ -139,7 +139,10 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
 
 std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
   if (has_loose_mass(scene.loose)) return housing_violation(scene, orbit, grazing);
-  if (has_friction(scene.friction) || orbit.halts()) return slip_violation(scene, orbit, grazing);
+  if (has_friction(scene.friction) || orbit.halts()) {
+    const std::vector<Violation> found = slip_violations(scene, orbit, grazing);
+    return found.empty() ? std::nullopt : std::optional(found.front());
+  }
   // next to its double zero in a graze, the sign of a soft stop's force is that of rounding
   constexpr double clear_of_rounding = 1e-6;
   const SceneNumbers<double> of_scene = numbers_of<double>(scene);

@@ -18,7 +18,8 @@ struct Violation {
     sticks,          ///< the mass isn't pushed away from a reversal as hard as the static level of friction
     slips,           ///< friction doesn't hold the mass at a stick, or not for so long
     stays,           ///< nothing releases it from a stick
-    vanishes         ///< a slip to a stick has no length, which solves its equations at any speed
+    vanishes,        ///< a slip to a stick has no length, which solves its equations at any speed
+    ceases           ///< friction is up to the force, and all slips are about to vanish
   };
   Kind kind = Kind::passes_through;
   std::size_t impact = 0;  ///< that the flight began with; or that pulls

@@ -1,0 +1,159 @@
+// Ends of branches of motion under dry friction: grazes, changes of halts, and where motion ceases.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "branches/branch.hpp"
+#include "branches/measures/measures.hpp"
+
+namespace clatter::branches {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The special points of branches along a parameter, of any kind but maxima, by their kinds and places.
+std::vector<std::pair<std::string, double>> special_points(const Branches& found, Parameter along) {
+  std::vector<std::pair<std::string, double>> points;
+  for (const SpecialPoint& special : found.special)
+    if (const std::string name(name_of(special.kind)); !name.starts_with("maximum"))
+      points.emplace_back(name, value_of(special.at.scene, along));
+  std::ranges::sort(points);
+  return points;
+}
+
+/// No branch fails, and steps of any length find the same.
+void expect_special_points(const sweep::GivenProblem& problem, Parameter along, std::array<double, 2> range,
+                           std::vector<std::pair<std::string, double>> expected) {
+  std::ranges::sort(expected);
+  for (const double largest_step : {0.02, 0.011, 0.03}) {
+    const Branches found = follow_branches(problem, {.along = along, .range = range, .largest_step = largest_step});
+    for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << end.reason;
+    const auto points = special_points(found, along);
+    ASSERT_EQ(points.size(), expected.size()) << largest_step;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(points[i].first, expected[i].first);
+      EXPECT_NEAR(points[i].second, expected[i].second, 1e-8) << points[i].first;
+    }
+  }
+}
+
+/// Between stops at +-gap with a restitution of 0.6.
+sweep::GivenProblem symmetric_stops(double h, double nu, double gap, double mu) {
+  sweep::GivenProblem problem;
+  problem.oscillator = {h, 1.0, nu, 0.0, 1.0};
+  problem.friction.kinetic = mu;
+  problem.stops = {-gap, gap, 0.6, 0.6};
+  return problem;
+}
+
+/// In a graze the velocity and the way to the stop fall to 0 at once, and rounding decides which is found first: of two
+/// mirror images one was told, and all beyond the other was lost.
+TEST(EndsUnderFriction, are_grazes_whatever_violation_is_found_first) {
+  expect_special_points(symmetric_stops(0.01, 0.9, 1.2, 0.1), Parameter("load"), {-0.5, 0.5},
+                        {{"fold", -0.10679195277},
+                         {"fold", 0.10679195277},
+                         {"graze", -0.05475498850},
+                         {"graze", 0.05475498850},
+                         {"grazing-sliding", -0.37334484187},
+                         {"grazing-sliding", 0.37334484187},
+                         {"switching-sliding", -0.38865813465},
+                         {"switching-sliding", 0.38865813465}});
+}
+
+/// With a static level above the kinetic one a slip whose velocity just comes to 0 goes on by the kinetic level.
+TEST(EndsUnderFriction, are_grazing_slidings_of_a_slip_that_goes_on) {
+  sweep::GivenProblem problem = symmetric_stops(0.05, 0.6, 1.2, 0.3);
+  problem.friction.static_level = 0.42;
+  expect_special_points(problem, Parameter("load"), {-0.5, 0.5},
+                        {{"grazing-sliding", -0.09597243}, {"grazing-sliding", 0.09597243}});
+}
+
+TEST(EndsUnderFriction, are_where_friction_is_up_to_the_force) {
+  sweep::GivenProblem problem = symmetric_stops(0.2776, 1.024, 1.769, 0.053);
+  for (const double load : {0.0, 0.1}) {  // at rest beside the middle, with a stick on either side of that
+    problem.oscillator.load = load;
+    for (const auto& [parameter, range] : {std::pair(Parameter("friction"), std::array{0.0159, 1.2}),
+                                           std::pair(Parameter("f"), std::array{0.04, 1.5})}) {
+      const Branches found = follow_branches(problem, {.along = parameter, .range = range});
+      for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << end.reason;
+      const auto ceases = std::ranges::find(found.special, SpecialKind::motion_ceases, &SpecialPoint::kind);
+      ASSERT_NE(ceases, found.special.end());
+      EXPECT_NEAR(ceases->at.scene.friction.kinetic, ceases->at.scene.oscillator.forcing, 1e-15);
+      const PhasePoint state = state_at_phase_zero(ceases->at.scene, ceases->at.orbit);
+      EXPECT_NEAR(state.x, load, 1e-15);
+      EXPECT_EQ(state.v, 0);
+      const auto range_of_x = extrema(ceases->at.scene, ceases->at.orbit);
+      EXPECT_NEAR(range_of_x.x_min, load, 1e-15);
+      EXPECT_NEAR(range_of_x.x_max, load, 1e-15);
+      const auto hardly_move = std::ranges::count_if(
+          found.points, [](const BranchPoint& point) { return extrema(point.scene, point.orbit).v_max < 1e-9; });
+      EXPECT_LE(hardly_move, 3);
+    }
+  }
+}
+
+/// With a static level above the kinetic one slips are as long as ever where their release vanishes: at the crest of
+/// the force, which is there as strong as the level less the spring's pull. A stop out of reach changes nothing.
+TEST(EndsUnderFriction, are_releases_at_the_crest_of_the_force) {
+  sweep::GivenProblem problem = symmetric_stops(0.0366, 0.852, 1.346, 0.337);
+  problem.friction.static_level = 0.3554;
+  problem.oscillator.forcing = 0.5;
+  for (const double lower : {-1.346, -infinity}) {
+    problem.stops.lower = lower;
+    const Branches found = follow_branches(problem, {.along = Parameter("f"), .range = {0.1, 0.52}});
+    for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << end.reason;
+    const auto crest = std::ranges::find(found.special, SpecialKind::release_tangency, &SpecialPoint::kind);
+    ASSERT_NE(crest, found.special.end());
+    for (const OrbitImpact& stick : crest->at.orbit.impacts)
+      EXPECT_NEAR(crest->at.scene.oscillator.forcing, 0.3554 - std::abs(stick.place), 1e-13);
+    EXPECT_NEAR(crest->at.scene.oscillator.forcing, 0.35447744, 1e-8);
+  }
+}
+
+/// The motion of three periods comes to that of one, all of whose slips begin to stick: it is told as the change of
+/// that, which is exact.
+TEST(EndsUnderFriction, are_those_of_motion_that_repeats_sooner) {
+  sweep::GivenProblem problem = symmetric_stops(0.0269, 0.365, 1.016, 0.031);
+  problem.stops.restitution_lower = problem.stops.restitution_upper = 0.315;
+  const Branches found = follow_branches(problem, {.along = Parameter("load"), .range = {-0.5, 0.5}});
+  for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << end.reason;
+}
+
+/// Plain scenes, drawn: no end is unexplained, and steps of any length find the same special points.
+TEST(EndsUnderFriction, are_explained_in_plain_scenes) {
+  std::mt19937 random(64);
+  const auto draw = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
+  };
+  int followed = 0;
+  for (int i = 0; i < 40; ++i) {
+    sweep::GivenProblem problem = symmetric_stops(draw(0.01, 0.2), draw(0.4, 1.8), draw(0.4, 2), draw(0.05, 0.6));
+    if (i % 3 == 2) problem.friction.static_level = problem.friction.kinetic * draw(1.05, 1.4);
+    const bool by_load = i % 2 == 0;
+    const Parameter along = by_load ? Parameter("load") : Parameter("f");
+    BranchSettings settings{.along = along, .range = by_load ? std::array{-0.5, 0.5} : std::array{0.1, 2.0}};
+    try {
+      const Branches found = follow_branches(problem, settings);
+      settings.largest_step = 0.013;
+      const auto points = special_points(found, along),
+                 others = special_points(follow_branches(problem, settings), along);
+      ++followed;
+      for (const BranchEnd& end : found.ends) EXPECT_NE(end.reason, no_halt_change) << i;
+      ASSERT_EQ(points.size(), others.size()) << i;
+      for (std::size_t k = 0; k < points.size(); ++k) EXPECT_NEAR(points[k].second, others[k].second, 1e-7) << i;
+    } catch (const StartError&) {
+    }
+  }
+  EXPECT_GT(followed, 20);
+}
+
+}  // namespace
+}  // namespace clatter::branches
