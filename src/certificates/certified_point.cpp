@@ -152,11 +152,15 @@ void certify_periodic(const Problem& problem, const PointResult& result, Certifi
   keep_if_known(point, bounds);
 }
 
+/// A point by its result, without a certificate.
+CertifiedPoint run_anew(const PointResult& result) {
+  return {.status = result.status, .periods = result.observed_turns, .word = result.impact_word, .end = result.end};
+}
+
 }  // namespace
 
 CertifiedPoint certified_period(const Problem& problem, const PointResult& result) {
-  CertifiedPoint point{
-      .status = result.status, .periods = result.observed_turns, .word = result.impact_word, .end = result.end};
+  CertifiedPoint point = run_anew(result);
   if (problem.oscillator.forcing == 0)
     point.without = Without::force;
   else
@@ -168,8 +172,7 @@ CertifiedPoint certified(const Problem& problem, point::ThreadScratch& scratch) 
   const Problem plain = observed(problem);
   const PointResult result = point::run_point(plain, scratch);
   if (result.status == steady::Status::periodic) return certified_period(plain, result);
-  CertifiedPoint point{
-      .status = result.status, .periods = result.observed_turns, .word = result.impact_word, .end = result.end};
+  CertifiedPoint point = run_anew(result);
   if (result.status == steady::Status::transient) certify_transient(plain, result, point);
   if (result.status == steady::Status::grazing) point.without = Without::graze;
   return point;
