@@ -22,8 +22,8 @@ namespace clatter::motion {
 /// and the remainder is of second order, bounded by Taylor's theorem (`rebound`).
 class Neighbourhood {
  public:
-  /// All motions within `start`; `rounding` bounds the error of displacements and velocities. If the start is on a stop
-  /// and `have_met`, all of them have had their impact there.
+  /// All motions within `start`; `rounding` bounds the error of displacements and velocities. If the start is beside a
+  /// stop and `have_met`, all of them are on the same side of their impact there as it is, or are continued to that.
   Neighbourhood(const Stops& stops, const Ellipse& start, double rounding, bool have_met = false)
       : stops_(stops), first_order_(start), rounding_(rounding), reach_(start.size() + rounding), have_met_(have_met) {}
 
@@ -31,8 +31,9 @@ class Neighbourhood {
   void arc(const A& arc, double begin, double length) {
     if (!holds_) return;
     field_ = Field::of(arc.constants());
-    if (!std::exchange(begun_, true)) begin_beside_stop(arc.start());
-    if (field_.drift > 0) grow(begin, length);
+    const double growth = field_.drift > 0 ? std::exp(field_.drift * length) : 1.0;
+    if (!std::exchange(begun_, true)) begin_beside_stop(arc.start(), growth);
+    if (growth > 1) grow(begin, growth);
     const double from = std::max(0.0, clear_from_ - begin);
     if (approached_ == Side::none && from < length) clear(arc, begin, from, length);
     advance(arc.constants(), length);
@@ -68,14 +69,17 @@ class Neighbourhood {
     first_order_ = first_order_.mapped(free), remainder_ = remainder_.mapped(free);
   }
 
-  /// Treats a motion that begins on or just beside a stop as one that leaves it.
-  void begin_beside_stop(const Motion<double>& start) {
+  /// Treats a motion that begins on or just beside a stop as one that leaves it, or that is about to meet it; beside it
+  /// is as near as differences may be once they have grown.
+  void begin_beside_stop(const Motion<double>& start, double growth) {
     for (const Side side : {Side::lower, Side::upper}) {
       const Stop<double> stop = stop_at<double>(stops_, side);
-      const bool leaves = stop.into(start.v) < 0 || (have_met_ && start.v == 0);
-      if (!(std::abs(start.x - stop.position) <= reach_ && leaves)) continue;
-      holds_ = depart({0, std::abs(start.v), have_met_ ? -stop.into(start.a) : 0.0, std::abs(start.a), 0});
-      return;
+      if (!(std::abs(start.x - stop.position) <= growth * reach_)) continue;
+      if (stop.into(start.v) < 0 || (have_met_ && start.v == 0)) {
+        holds_ = depart({0, std::abs(start.v), have_met_ ? -stop.into(start.a) : 0.0, std::abs(start.a), 0});
+        return;
+      }
+      if (have_met_) approached_ = side, approached_at_ = 0.0;
     }
   }
 
@@ -140,8 +144,8 @@ class Neighbourhood {
     return goes && (speed + away.acceleration * wait) * wait + reach_ < stops_.upper - stops_.lower;
   }
   /// Lets the bound grow to one that holds to the end of an arc (eq. 48); it has to hold from the departure on.
-  void grow(double begin, double length) {
-    reach_ *= std::exp(field_.drift * length);
+  void grow(double begin, double growth) {
+    reach_ *= growth;
     if (clear_from_ > begin) holds_ = holds_ && leaves();
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "motion/state.hpp"
@@ -31,20 +32,25 @@ class RoughGrazes {
     const bool brakes = impact.before * acceleration_ < 0;
     if (brakes && impact.before * impact.before <= 2 * std::abs(acceleration_) * rounding_) grazes_ = true;
   }
-  void reversal(const motion::Reversal& reversal) { turn(reversal.position, (reversal.before + reversal.after) / 2); }
+  /// At a stop if the forces pull it away from there, else it is the crest of a rebound.
+  void reversal(const motion::Reversal& reversal) {
+    const double x = reversal.position, push = (reversal.before + reversal.after) / 2;
+    turn((push > 0 ? x - stops_.lower : stops_.upper - x), push);
+  }
   /// Not of one that goes on after a section.
   void rest(const motion::Rest& rest) {
     const bool goes_on = rest.time <= until_ * (1 + 1e-12);
     until_ = rest.time + rest.length;
-    if (rest.is_stick() && rest.time > 0 && !goes_on) turn(rest.position, push_);
+    if (rest.is_stick() && rest.time > 0 && !goes_on)
+      turn(std::min(rest.position - stops_.lower, stops_.upper - rest.position), push_);
   }
 
   [[nodiscard]] bool found() const { return grazes_; }
 
  private:
-  /// The velocity falls to 0 at x under the other forces `push`.
-  void turn(double x, double push) {
-    if (std::abs(x - stops_.lower) <= rounding_ || std::abs(x - stops_.upper) <= rounding_) grazes_ = true;
+  /// The velocity falls to 0 so far from a stop, under the other forces `push`.
+  void turn(double gap, double push) {
+    if (gap <= rounding_) grazes_ = true;
     const double left = std::abs(push) - friction_.static_level;
     const bool jumps = friction_.static_level > friction_.kinetic;
     if (jumps && std::abs(left) <= rounding_ * (1 + stiffness_)) grazes_ = true;

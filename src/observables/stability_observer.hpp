@@ -75,10 +75,11 @@ class Stability::Observer {
 
   /// True if motions that differ from this one by rounding meet other stops. After a rest no difference is left; and
   /// motion by general methods isn't known to rounding. A graze of a soft stop changes little, and beside one those of
-  /// a rigid stop aren't told. Under dry friction the least speeds and distances tell them.
+  /// a rigid stop aren't told. Under dry friction the least speeds and distances tell them, with rests, too: a mass
+  /// that friction halts just at a stop may rest there or not.
   [[nodiscard]] bool grazes() const {
-    return !rests_ && ((graze_matters_ && !nearby_.holds_before(first_stop_)) || (rough_ && rough_->found()) ||
-                       (walls_ && walls_->found()));
+    return (graze_matters_ && !rests_ && !nearby_.holds_before(first_stop_)) || (rough_ && rough_->found()) ||
+           (walls_ && walls_->found());
   }
 
   /// Ends the observed time, one period. Unforced motion (`autonomous`) is periodic only when it loses nothing; a shift
