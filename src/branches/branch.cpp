@@ -243,7 +243,7 @@ class Follower {
                     const std::optional<std::size_t>& from) {
     std::optional<Narrowed> between = narrowed(equations, walk, step);
     if (!between) return end_without_step(equations, record_.point(equations, walk.here()), walk.here());
-    const auto end = nearest_end(any_equations(), equations, *between, near(step), settings_.tolerance);
+    const auto end = nearest_end(any_equations(), equations, *between, 10 * near(step), settings_.tolerance);
     double length = between->last_good.arclength - walk.here().arclength;
     if (end && end->change) length *= 1 - 1e-4;  // where a slip vanishes, derivatives have no digits
     if (special_between(equations, walk, length, from, !end || !end->change))
@@ -252,8 +252,8 @@ class Follower {
     if (end) between->violated = end->graze;
     const Touch touch = touch_of(equations, *between);
     if (touch.appears && !touch.halts && equations.shape().size() > 0 && ends_in_rest(equations, touch, step)) return;
-    std::optional<ExactGraze> exact;
-    if (end || !touch.halts)
+    std::optional<ExactGraze> exact = end ? std::optional(end->exact) : std::nullopt;
+    if (!exact && !touch.halts)
       exact = exact_graze(any_equations(), equations.scene_at(touch.beyond.at), touch.graze(), 1e-3 * speed_unit_,
                           symmetric_, near(step), settings_.tolerance);
     if (exact && exact->joins) return end_on(*exact, equations.shape());
@@ -271,6 +271,7 @@ class Follower {
     record_.end(last, "graze");
     if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
     const int heading = touch.last_good.tangent.back() < 0 ? -1 : 1;
+    if (touch.halts && jumps_to_stick(exact->scene, without, touch.impact)) return;
     if (touch.turns)
       waiting_.push_back({at.scene, turned(with, touch.impact), {}, special, generation_});
     else if (touch.appears)

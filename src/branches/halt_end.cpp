@@ -35,6 +35,8 @@ std::optional<FrictionEnd> nearest_end(const Equations& builder, const OrbitEqua
   if (!has_friction(beyond.friction)) return std::nullopt;
   const std::vector<Violation> violations = slip_violations(beyond, walked.orbit_at(between.beyond.at), {});
   const auto& [parameter, unit] = walked.axes().front();
+  // where derivatives have no digits, bisection ends while the bracket is still wide
+  within = std::max(within, std::abs(between.beyond.at.back() - between.last_good.at.back()));
   std::optional<FrictionEnd> nearest;
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](const std::optional<ExactGraze>& exact, auto&&... what) {

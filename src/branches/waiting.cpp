@@ -1,5 +1,7 @@
 #include "branches/waiting.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -57,6 +59,32 @@ bool leaves_range(const CurvePoint& start, const BranchSettings& settings) {
          (start.tangent.back() > 0 && settings.range[1] - at <= rounding);
 }
 
+namespace {
+
+/// Free motion under dry friction may be its own mirror image in a scene that isn't, such as one with a single stop out
+/// of reach. If its halts change in a special point, those of both halves do at once, and each alone may come earlier
+/// or later by its own equations: the tangent of the half, as that of the whole.
+std::optional<Vector> tangent_of_both_halves(const OrbitEquations& equations, const Waiting& from, const Vector& axis) {
+  constexpr double same = 1e-6;
+  const Orbit half = from.orbit.half_if_same(same, from.scene.oscillator.stiffness != 0);
+  if (from.orbit.mirrored || !half.mirrored || 2 * half.size() != from.orbit.size()) return std::nullopt;
+  if (half.size() == 0 || !std::ranges::all_of(half.impacts, halts, &OrbitImpact::event)) return std::nullopt;
+  const OrbitEquations of_half{from.scene, half, equations.axes(), equations.speed_unit()};
+  const auto first = static_cast<std::ptrdiff_t>(of_half.first_axis());
+  Vector half_axis(axis.begin(), axis.begin() + first);
+  half_axis.push_back(axis.back());
+  const auto along = tangent(of_half, of_half.unknowns_of(from.scene, half), half_axis);
+  if (!along) return std::nullopt;
+  Vector both(along->begin(), along->begin() + first);
+  for (std::size_t i = 0; i < of_half.first_axis(); ++i) both.push_back(i % 2 == 0 ? (*along)[i] : -(*along)[i]);
+  both.push_back(along->back());
+  const double length = std::sqrt(product(both, both));
+  for (double& x : both) x /= length;
+  return both;
+}
+
+}  // namespace
+
 std::optional<Vector> first_step(const OrbitEquations& equations, const CurvePoint& start, const Waiting& from,
                                  double tolerance) {
   std::vector<Vector> tried;
@@ -65,7 +93,8 @@ std::optional<Vector> first_step(const OrbitEquations& equations, const CurvePoi
   } else {
     Vector axis(equations.unknowns(), from.heading == 0 ? 1.0 : 0.0);
     if (from.heading != 0) axis.back() = from.heading;
-    const auto along = tangent(equations, start.at, axis);
+    auto along = tangent_of_both_halves(equations, from, axis);
+    if (!along) along = tangent(equations, start.at, axis);
     if (!along) return std::nullopt;
     tried = {*along};
     if (from.heading == 0) tried.push_back(sum(*along, -2.0, *along));

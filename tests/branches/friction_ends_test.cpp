@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <string>
@@ -31,10 +32,11 @@ std::vector<std::pair<std::string, double>> special_points(const Branches& found
 
 /// No branch fails, and steps of any length find the same.
 void expect_special_points(const sweep::GivenProblem& problem, Parameter along, std::array<double, 2> range,
-                           std::vector<std::pair<std::string, double>> expected) {
+                           std::vector<std::pair<std::string, double>> expected, std::int64_t generations = 0) {
   std::ranges::sort(expected);
   for (const double largest_step : {0.02, 0.011, 0.03}) {
-    const Branches found = follow_branches(problem, {.along = along, .range = range, .largest_step = largest_step});
+    const Branches found = follow_branches(
+        problem, {.along = along, .range = range, .largest_step = largest_step, .generations = generations});
     for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << end.reason;
     const auto points = special_points(found, along);
     ASSERT_EQ(points.size(), expected.size()) << largest_step;
@@ -74,6 +76,65 @@ TEST(EndsUnderFriction, are_grazing_slidings_of_a_slip_that_goes_on) {
   problem.friction.static_level = 0.42;
   expect_special_points(problem, Parameter("load"), {-0.5, 0.5},
                         {{"grazing-sliding", -0.09597243}, {"grazing-sliding", 0.09597243}});
+}
+
+/// Motion that is its own mirror image, and doesn't reach the only stop, gains a stick in each half at once: each alone
+/// may come earlier or later, and no step led off there. A mirror image of the stop changes nothing.
+TEST(EndsUnderFriction, of_symmetric_motion_are_alike_with_one_stop_and_two) {
+  sweep::GivenProblem problem = symmetric_stops(0.02, 0.3665, 9.0, 0.06);
+  for (const double lower : {-infinity, -9.0}) {
+    problem.stops = {lower, 9.0, lower == -infinity ? 1.0 : 0.6, 0.6};
+    expect_special_points(problem, Parameter("nu"), {0.26, 0.5},
+                          {{"grazing-sliding", 0.362817539803},
+                           {"release tangency", 0.320559909813},
+                           {"switching-sliding", 0.326533670852}});
+  }
+}
+
+/// The phase of a stick changes nothing later, but the motion that is born at a flip has it changed, too: without it
+/// the first step led aside of the branch, which was lost.
+TEST(EndsUnderFriction, of_motion_that_is_born_with_a_stick_are_found) {
+  sweep::GivenProblem problem;
+  problem.oscillator = {0.0, 1.0, 1.28, 0.0, 1.0};
+  problem.friction.kinetic = 0.2325;
+  problem.stops = {-0.2035, 0.2757, 0.45, 0.45};
+  problem.start = {0.07, 0.13};
+  expect_special_points(
+      problem, Parameter("nu"), {1.23, 1.3},
+      {{"flip", 1.25281657328}, {"flip", 1.25959683669}, {"graze", 1.25161828282}, {"graze", 1.25970507593}}, 1);
+}
+
+/// A mass that has come to a stop without speed is held there by the static level: nothing begins there.
+TEST(EndsUnderFriction, are_grazes_at_which_motion_jumps) {
+  sweep::GivenProblem problem;
+  problem.oscillator = {0.0015, 1.0, 0.9, 0.0, 1.0};
+  problem.friction.kinetic = 0.247, problem.friction.static_level = 0.27;
+  problem.stops = {-0.35, 0.41, 0.51, 0.51};
+  problem.start = {0.03, 0.35};
+  const Branches found = follow_branches(problem, {.along = Parameter("f"), .range = {0.9, 1.1}});
+  for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << end.reason;
+  const auto points = special_points(found, Parameter("f"));
+  const auto is_jump = [](const auto& point) {
+    return point.first == "graze" && std::abs(point.second - 0.98517524612) < 1e-9;
+  };
+  EXPECT_TRUE(std::ranges::any_of(points, is_jump));
+}
+
+/// Beside an end at which derivatives have no digits steps of any length lead to it.
+TEST(EndsUnderFriction, are_found_from_afar) {
+  sweep::GivenProblem problem;
+  problem.oscillator = {0.0, 1.0, 0.39420449773276955, 0.09, 1.0};
+  problem.friction.kinetic = 0.4573;
+  problem.stops = {-infinity, 10.0, 1.0, 0.6};
+  const std::array range{0.13719205024991102, 0.8231522814220623};
+  for (const double largest_step : {0.007, 0.02}) {
+    const Branches found =
+        follow_branches(problem, {.along = Parameter("friction"), .range = range, .largest_step = largest_step});
+    const auto points = special_points(found, Parameter("friction"));
+    ASSERT_EQ(points.size(), 1u) << largest_step;
+    EXPECT_EQ(points[0].first, "switching-sliding");
+    EXPECT_NEAR(points[0].second, 0.17391931987, 1e-10);
+  }
 }
 
 TEST(EndsUnderFriction, are_where_friction_is_up_to_the_force) {

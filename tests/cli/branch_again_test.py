@@ -99,6 +99,25 @@ switch = 1
 max_points = 600
 """
 
+# between soft stops; LLLL and LLL of two periods meet in a graze, 6e-7 of the range beside that of LL of one period
+GRAZES_BESIDE = """[scene]
+h = 0.017075095858361887
+f = 0.9742630849421126
+nu = 0.6298549588765149
+stiffness = -1.2489728204775683
+stop_lower = -0.950392301776988
+stop_upper = 0.950392301776988
+stop_stiffness_lower = 510.7458701659793
+stop_stiffness_upper = 510.7458701659793
+x0 = 0.18457228479306642
+v0 = 1.036476811676004
+[branch]
+along = "stiffness"
+range = [-1.8734592307163525, -0.6244864102387842]
+switch = 1
+max_points = 600
+"""
+
 
 class BranchAgain(BranchRuns):
     def found(self, parameter, *words):
@@ -134,6 +153,21 @@ class BranchAgain(BranchRuns):
             self.assertLess(np.bincount(file["branch"][()]).max(), 200)
             grazes = np.sort(file["special_f"][()][file["special_kind"][()] == b"graze"])
         self.assertGreater(np.diff(grazes).min(), 1e-6)
+
+    def test_slow_contacts_are_none_that_vanish_where_a_motion_beside_grazes(self):
+        done = self.clatter("branch", self.write("a.toml", GRAZES_BESIDE), "-o", "b.h5", "-q")
+        self.assertIn("max_points", done.stderr)
+        with h5py.File(self.directory / "b.h5") as file:
+            at, kind, met = (file[f"special_{name}"][()] for name in ("stiffness", "kind", "branch"))
+            first = [
+                file["word"][()][file["branch"][()] == number][0] for number in range(file["branch"][()].max() + 1)
+            ]
+        near = np.flatnonzero((kind == b"graze") & (np.abs(at + 1.0222487) < 1e-6))
+        met = [sorted(first[number] for number in met[row] if number >= 0) for row in near[np.argsort(at[near])]]
+        self.assertEqual(met, [[b"LLL", b"LLLL"], [b"L", b"LL"]])
+        own, other = np.sort(at[near])
+        self.assertAlmostEqual(other, -1.02224832543, 10)
+        self.assertTrue(-1.02224923 < own < -1.02224904, own)
 
     def test_no_maximum_is_told_where_a_branch_is_born(self):
         found = self.found("nu", self.write("a.toml", DOUBLED))

@@ -84,6 +84,27 @@ class BranchFriction(BranchRuns):
         with h5py.File(self.directory / "b.h5") as data:
             self.assertEqual(data["impact_word"][()], b"LSU")
 
+    def test_motion_beyond_a_flip_with_a_stick_is_what_runs_find(self):
+        """A branch of motion over two periods is reached through one that is born with a stick."""
+        scene = "[scene]\nh = 0\nf = 1\nnu = 1.28\nstop_lower = -0.2035\nstop_upper = 0.2757\nR = 0.45\n"
+        observe = "[observe]\nword = true\nenergy = true\n"
+        scene += "x0 = 0.07\nv0 = 0.13\nfriction = 0.2325\n"
+        self.special_points(scene + ALONG.format(along="nu", low=1.23, high=1.3) + "switch = 1\n" + observe)
+        with h5py.File(self.directory / "a.branch.h5") as data:
+            of_two = np.flatnonzero((data["word"][()] == b"LLULU") & (data["stable"][()] == 1))
+            nus, powers = data["nu"][()][of_two], data["impact_power"][()][of_two]
+            states = np.column_stack([data[name][()][of_two] for name in ("x", "v")])
+        self.assertGreater(len(of_two), 5)
+        for nu, (x, v), power in list(zip(nus, states, powers))[1:-1:3]:
+            changed = scene.replace("nu = 1.28", f"nu = {float(nu)!r}")
+            changed = changed.replace("x0 = 0.07", f"x0 = {float(x)!r}").replace("v0 = 0.13", f"v0 = {float(v)!r}")
+            self.write("b.toml", changed + observe)
+            done = self.clatter("run", "b.toml", "-o", "b.h5", "-q", "--force")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with h5py.File(self.directory / "b.h5") as data:
+                self.assertEqual((data["status"][()], data["impact_word"][()]), (0, b"LLULU"))
+                self.assertAlmostEqual(data["impact_power"][()], power, 10)
+
     def test_branches_in_si_are_those_of_the_scene(self):
         """Mass 1 kg, stiffness 1 N/m: the units are those of the scene."""
         machine = (

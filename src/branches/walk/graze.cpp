@@ -123,6 +123,17 @@ std::optional<Lasting> with_lasting(const Equations& equations, const FollowedSc
   return std::nullopt;
 }
 
+/// Whether one graze is nearer to a scene than another one, by more than rounding. All slow contacts of a motion may
+/// vanish at once, or the other ones are slow there, too, and the motion without them grazes somewhere near.
+bool is_nearer(const ExactGraze& one, const ExactGraze& other, const FollowedScene& scene,
+               const OrbitEquations::Axis& axis) {
+  constexpr double rounding = 1e-9;
+  const auto off = [&](const FollowedScene& there) {
+    return std::abs(value_of(there, axis.parameter) - value_of(scene, axis.parameter)) / axis.unit;
+  };
+  return off(one.scene) + rounding < off(other.scene);
+}
+
 }  // namespace
 
 std::optional<ExactGraze> exact_graze(const Equations& equations, const FollowedScene& near, Graze graze, double slow,
@@ -133,7 +144,7 @@ std::optional<ExactGraze> exact_graze(const Equations& equations, const Followed
   const Graze once = once_of(graze, slow, symmetric_scene);
   if (exact && once.orbit.size() == graze.orbit.size()) return exact;
   auto joined = solved(equations, near, once, within, tolerance);
-  if (!joined) return exact;
+  if (!joined || (exact && is_nearer(*exact, *joined, near, equations(once.orbit, {}).axes().front()))) return exact;
   joined->joins = true;
   return joined;
 }

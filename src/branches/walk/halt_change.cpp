@@ -256,6 +256,11 @@ void add_releases_at_crest(const OrbitEquations& equations, const CurvePoint& at
 
 }  // namespace
 
+bool jumps_to_stick(const FollowedScene& scene, const Orbit& orbit, std::size_t reversal) {
+  const OrbitImpact& halt = orbit.impacts[reversal];
+  return scene.friction.static_level > scene.friction.kinetic && holds(scene, halt, halt.side);
+}
+
 std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found,
                                      const std::vector<Violation>& violations) {
   constexpr double about_to_cease = 0.1;  // rad

@@ -25,6 +25,10 @@ struct HaltChange {
 /// That of the shortest slip to a halt, if it is about to vanish: what begins it and that halt become one stick.
 [[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at);
 
+/// Whether a reversal on a stop, as an impact there loses its speed, is none: the static level of friction, which is
+/// above the kinetic one, holds the mass. Motion jumps there.
+[[nodiscard]] bool jumps_to_stick(const FollowedScene& scene, const Orbit& orbit, std::size_t reversal);
+
 /// Those that may be near an end of a branch with these violations beyond, the likeliest first; none if it is none of
 /// halts. As a slip vanishes, rounding decides which violation is found.
 [[nodiscard]] std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found,
