@@ -65,7 +65,8 @@ void end_in_change(const FrictionEnd& end, const BranchPoint& last_good, Record&
   record.add(last);
   const auto [special, is_new] = record.note(change.kind, at, change.condition);
   record.end(last, std::string(name_of(change.kind)));
-  if (!is_new || !(change.beyond || change.strikes)) return no_longer_waits(waiting, special, last.orbit);
+  const bool jumps = change.strikes && slips_on_from_stop(exact.scene, at.orbit, exact.impact);
+  if (!is_new || jumps || !(change.beyond || change.strikes)) return no_longer_waits(waiting, special, last.orbit);
   waiting.push_back({exact.scene, with_form(change.beyond.value_or(HaltForm::stick)), {}, special, generation});
   if (change.strikes) waiting.back().opens = exact.impact;
   if (exact.joins && change.before) waiting.push_back({exact.scene, at.orbit, {}, special, generation});

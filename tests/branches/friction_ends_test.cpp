@@ -120,6 +120,17 @@ TEST(EndsUnderFriction, are_grazes_at_which_motion_jumps) {
   EXPECT_TRUE(std::ranges::any_of(points, is_jump));
 }
 
+/// Where a slip to a stick comes to a stop, the mass would strike that, and leave it by the kinetic level.
+TEST(EndsUnderFriction, are_grazes_after_which_a_mass_slips_on) {
+  sweep::GivenProblem problem;
+  problem.oscillator = {0.0011552155673588776, 1.0, 0.7147072258264515, 0.08969054290496936, 1.2878062318197334};
+  problem.friction.kinetic = 0.24754244269282435, problem.friction.static_level = 0.32648270068323093;
+  problem.stops = {-0.44215337746527456, 0.44215337746527456, 0.7817292725359447, 0.7817292725359447};
+  problem.start = {-0.013555009021215697, -0.150778417835693};
+  expect_special_points(problem, Parameter("load"), {-0.21, 0.389},
+                        {{"graze", 0.03369423537}, {"grazing-sliding", 0.12340120798}});
+}
+
 /// Beside an end at which derivatives have no digits steps of any length lead to it.
 TEST(EndsUnderFriction, are_found_from_afar) {
   sweep::GivenProblem problem;

@@ -261,6 +261,15 @@ bool jumps_to_stick(const FollowedScene& scene, const Orbit& orbit, std::size_t 
   return scene.friction.static_level > scene.friction.kinetic && holds(scene, halt, halt.side);
 }
 
+bool slips_on_from_stop(const FollowedScene& scene, const Orbit& orbit, std::size_t stick) {
+  const OrbitImpact& halt = orbit.impacts[stick];
+  const Side away = opposite(orbit.heading_before(stick));
+  return sign_of(away) *
+             of_flights(scene,
+                        [&](const auto& flights) { return flights.acceleration(halt.place, halt.phase, away); }) >
+         0;
+}
+
 std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found,
                                      const std::vector<Violation>& violations) {
   constexpr double about_to_cease = 0.1;  // rad

@@ -29,6 +29,9 @@ struct HaltChange {
 /// above the kinetic one, holds the mass. Motion jumps there.
 [[nodiscard]] bool jumps_to_stick(const FollowedScene& scene, const Orbit& orbit, std::size_t reversal);
 
+/// Whether a mass that sticks on a stop leaves it once it strikes that, as the kinetic level doesn't hold it.
+[[nodiscard]] bool slips_on_from_stop(const FollowedScene& scene, const Orbit& orbit, std::size_t stick);
+
 /// Those that may be near an end of a branch with these violations beyond, the likeliest first; none if it is none of
 /// halts. As a slip vanishes, rounding decides which violation is found.
 [[nodiscard]] std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found,
