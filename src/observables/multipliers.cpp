@@ -36,6 +36,16 @@ std::array<std::complex<double>, 4> multipliers_of(const motion::LooseJacobian& 
   return found;
 }
 
+std::array<std::complex<double>, 4> known_of(std::array<std::complex<double>, 4> multipliers, double power) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), epsilon = std::numeric_limits<double>::epsilon();
+  constexpr double lost = 1e3 * epsilon;  // of the largest: so far its rounding takes the digits of others
+  const double largest = std::abs(multipliers[0]);
+  if (!(std::log2(epsilon * largest) + power > 0)) return multipliers;
+  for (std::complex<double>& multiplier : multipliers)
+    if (std::abs(multiplier) < lost * largest) multiplier = {nan, nan};
+  return multipliers;
+}
+
 std::array<double, 4> change_of_fixed_point(const motion::LooseJacobian& map, const std::array<double, 4>& by_number) {
   const Eigen::Map<const Eigen::Vector4d> right(by_number.data());
   const Eigen::Vector4d change = (Eigen::Matrix4d::Identity() - matrix_of(map)).partialPivLu().solve(right);

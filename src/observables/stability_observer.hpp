@@ -129,7 +129,7 @@ class Stability::Observer {
     const double power = loose_->exponent();
     if (!span.periodic) values.lyapunov = (log_norm(loose_->mantissa()) + power * std::numbers::ln2) / span.total;
     if (!span.periodic || grazes()) return values;
-    auto all = multipliers_of(loose_->mantissa());
+    auto all = known_of(multipliers_of(loose_->mantissa()), power);
     if (loose_->has_pressed()) all[2] = all[3] = 0.0;  // but for rounding
     values.lyapunov = (std::log(std::abs(all[0])) + power * std::numbers::ln2) / span.total;
     for (std::size_t i = 0; i < all.size(); ++i) {

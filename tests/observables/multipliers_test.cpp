@@ -160,6 +160,32 @@ TEST(Multipliers, are_sorted_by_their_modulus) {
   EXPECT_TRUE(std::isnan(multipliers_of({{{std::nan(""), 0, 0, 0}, {}, {}, {}}})[0].real()));
 }
 
+/// The map has the multipliers `large`, 5, 0.5 and 0.2, in coordinates of which none is one of theirs.
+TEST(Multipliers, are_not_told_where_they_have_no_digits) {
+  const auto of = [](double large, double power) {
+    constexpr double turn[4][4] = {
+        {1, 1, 1, 1}, {1, -1, 1, -1}, {1, 1, -1, -1}, {1, -1, -1, 1}};  // 4 times its inverse
+    const std::array<double, 4> diagonal{large, 5, 0.5, 0.2};
+    motion::LooseJacobian entries{};
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t k = 0; k < 4; ++k)
+          entries[i][j] += std::ldexp(turn[i][k] * diagonal[k] * turn[k][j] / 4, -static_cast<int>(power));
+    return known_of(multipliers_of(entries), power);
+  };
+  for (const double power : {0.0, 40.0}) {
+    const double size = std::ldexp(1, static_cast<int>(power));
+    const auto known = of(1e6, power);
+    EXPECT_NEAR(std::abs(size * known[0] * size * known[1] * size * known[2] * size * known[3]), 5e5, 1e-2);
+    const auto lost = of(1e17, power);
+    EXPECT_NEAR(lost[0].real() * size, 1e17, 1e4);
+    for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(std::isnan(lost[i].real()) && std::isnan(lost[i].imag())) << i;
+  }
+  const auto two_large = known_of({1e18, -2e17, 3.0, 0.5}, 0);
+  EXPECT_EQ(two_large[1], -2e17);
+  EXPECT_TRUE(std::isnan(two_large[2].real()));
+}
+
 /// A map that contracts is applied until nothing changes any more.
 TEST(Multipliers, a_fixed_point_moves_to_where_the_moved_map_leads) {
   const motion::LooseJacobian map{
