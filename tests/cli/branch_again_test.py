@@ -118,6 +118,33 @@ switch = 1
 max_points = 600
 """
 
+# in SI; LUUUULUUUU is born at a flip of LUUUU, beside which rounding decides how its harmonic changes
+IN_SI = """[machine]
+mass = 0.37
+phase = 0.0
+x0 = 0.2957505896439485
+v0 = 0.0
+stop_lower = -0.4158861590239731
+stop_stiffness_lower = 14.722482174112114
+stop_damping_lower = 1.2146384004392865
+stop_upper = 0.46630964169303324
+stop_stiffness_upper = 9426.336795040419
+stop_damping_upper = 0.0
+damping = 0.001174967219616693
+force = -0.37
+stiffness = -0.01853700018651587
+load = 0.16890215442661569
+frequency = 0.07122432371916212
+[observe]
+energy = true
+harmonics = 1
+[branch]
+along = "frequency"
+range = [0.060540675161287805, 0.08190797227703643]
+switch = 1
+max_points = 600
+"""
+
 
 class BranchAgain(BranchRuns):
     def found(self, parameter, *words):
@@ -179,6 +206,15 @@ class BranchAgain(BranchRuns):
         maxima = values[[kind.startswith(b"maximum") for kind in kinds]]
         self.assertEqual(len(maxima), 5)
         self.assertGreater(np.abs(maxima - flip).min(), 1e-2)
+
+    def test_in_si_no_maximum_is_told_where_a_branch_is_born(self):
+        self.found("frequency", self.write("a.toml", IN_SI))
+        with h5py.File(self.directory / "b.h5") as file:
+            kinds, values, words = (file[f"special_{name}"][()] for name in ("kind", "frequency", "word"))
+        flip = values[(kinds == b"flip") & (words == b"LUUUU")][0]
+        self.assertAlmostEqual(flip, 0.07390793925941, 12)
+        near = kinds[np.abs(values - flip) < 1e-9]
+        self.assertEqual(list(near), [b"flip"])
 
     def test_beside_its_birth_a_branch_has_no_fold_however_short_its_steps_are(self):
         path = self.write("a.toml", DOUBLED.replace("[1.5, 3]", "[2.5, 2.75]"))

@@ -16,9 +16,9 @@ from coincidences import Failures, Way, machine
 from random_scenes import followed_scenes, slipping_scenes
 from starts_on_contacts import alike
 
-OBSERVED = "[observe]\nimpacts = true\n"
+OBSERVED = "[observe]\nimpacts = true\nenergy = true\nharmonics = 1\n"
 MOST = 600  # points of a set; a longer one is cut, and isn't compared
-# Whether a maximum is told depends on where the steps are.
+# Whether a maximum is told depends on where the steps are, which only those of a machine share.
 COMPARED = ("fold", "flip", "symmetry breaking", "graze", "crossing-sliding", "grazing-sliding", "switching-sliding")
 
 
@@ -62,14 +62,17 @@ class Sets:
             kinds = [kind.decode() for kind in data["special_kind"][()]]
             at, of = data["special_" + key][()] * scale, data["special_branch"][()]
             specials = [(k, float(a), {int(n) for n in row if n >= 0}) for k, a, row in zip(kinds, at, of)]
-        return [special for special in specials if special[0] in COMPARED], branch, output
+        return specials, branch, output
 
     def compare(self, i, scene):
         text, key = self.configuration(scene)
         found = self.follow(text, key)
-        if found is None or not 0 < len(found[0]) <= 12:
+        if found is None:
             return
-        specials, branch, output = found
+        everything, branch, output = found
+        specials = [special for special in everything if special[0] in COMPARED]
+        if not 0 < len(specials) <= 12:
+            return
         for number in range(min(4, int(branch.max()) + 1)):
             points = np.flatnonzero(branch == number)
             if len(points) < 8:
@@ -79,7 +82,10 @@ class Sets:
             self.same(f"begun again from branch {number}", i, self.follow(text, key, words=words), specials, met, text)
         other, name = self.configuration(scene, machine())
         met = set(range(int(branch.max()) + 1))
-        self.same("as a machine", i, self.follow(other, name, 2 * np.pi), specials, met, text)
+        in_si = self.follow(other, name, 2 * np.pi)
+        self.same("as a machine", i, in_si, everything, met, text)
+        if in_si:
+            self.same("as a scene", i, found, in_si[0], set(range(int(in_si[1].max()) + 1)), other)
 
     def same(self, relation, i, again, specials, met, text):
         """All special points of these branches are in another set."""

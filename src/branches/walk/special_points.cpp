@@ -25,9 +25,11 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
   const auto look = [&](SpecialKind kind, const TestFunction& test, bool only_down, double from = 0.0) {
     look_between(from, step, kind, test, only_down);
   };
-  // a branch begins across the parameter if it is born in a flip or a loss of symmetry: that is no fold of it
+  // a branch begins across the parameter if it is born in a flip or a loss of symmetry: that is no fold of it, and as
+  // all its measures turn round there, no maximum
+  const double turns_until = is_first ? step / 8 : 0.0;
   look(
-      SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false, is_first ? step / 8 : 0.0);
+      SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false, turns_until);
   // if a halt of no length begins there, derivatives have no digits
   const bool begins_to_halt = is_first && std::ranges::any_of(equations.shape().impacts, halts, &OrbitImpact::event);
   const double begin = begins_to_halt ? 1e-3 * step : 0.0;
@@ -56,12 +58,12 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
     look(loses, distance, false, begin);
   }
   if (has_impacts || equations.shape().pressed != Side::none) {
-    const double aside = 1e-2 * step, from = is_first ? aside : 0.0, to = ends.ends_in_graze ? step - aside : step;
+    const double to = ends.ends_in_graze ? step - 1e-2 * step : step;
     const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
       const auto at = [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)); };
       if (!changes(at(walk.here())) && !changes(at(*there))) return;
       look_between(
-          from, to, of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
+          turns_until, to, of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
     };
     look_for_maximum(SpecialKind::impact_speed, impact_speed);
     if (observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);
