@@ -5,6 +5,7 @@
 #include "claims.hpp"
 #include "eigenvalues.hpp"
 #include "loose_motion.hpp"
+#include "order.hpp"
 
 namespace verify {
 namespace {
@@ -17,7 +18,7 @@ void check_response(const Certificate& certificate, const Scene& scene, const Re
   if (certificate.x_min) report.compare("x_min", found.x_min, *certificate.x_min);
   if (certificate.x_max) report.compare("x_max", found.x_max, *certificate.x_max);
   check_multipliers(certificate, eigenvalues(found.derivative), report);
-  check_word(certificate, {}, scene, found.start.x, report);
+  check_word(certificate, Cycle({}, scene.period()), scene, found.start.x, report);
   if (certificate.symmetric == false) report.add(Verdict::refuted, "symmetric: claimed false, found true");
 }
 
@@ -34,9 +35,10 @@ void check_periodic(const Certificate& certificate, Report& report) {
   }
   compare_extrema(certificate, orbit.motion, orbit.events, scene, report);
   check_multipliers(certificate, eigenvalues(orbit.derivative), report);
-  check_word(certificate, orbit.events, scene, orbit.first.x, report);
-  if (!certificate.released) check_smallest_period(certificate, scene, orbit, report);
-  check_symmetry(certificate, scene, orbit, report);
+  const Cycle cycle(orbit.events, length_of(scene, certificate.periods));
+  check_word(certificate, cycle, scene, orbit.first.x, report);
+  check_smallest_period(certificate, scene, orbit, cycle, report);
+  check_symmetry(certificate, scene, orbit, cycle, report);
 }
 
 /// Follows a transient to its end.
@@ -67,8 +69,7 @@ void check_transient(const Certificate& certificate, Report& report) {
   if (scene.loose) return check_transient_in_housing(certificate, scene, report);
   Motion motion(scene, certificate.start_in_balls(), {Ball(0), Ball(0)});
   follow(certificate, motion, scene, report);
-  const Vector end =
-      motion.is_resting() ? Vector{scene.stop(certificate.events.back().side).position, Ball(0)} : motion.state();
+  const Vector end = motion.state();
   report.compare("end, x", end.x, certificate.end->x);
   report.compare("end, v", end.y, certificate.end->v);
 }
@@ -77,6 +78,7 @@ Finding found_in(const Certificate& certificate, slong precision) {
   const Precision present(precision);
   Report report;
   try {
+    require_possible_order(certificate);
     if (certificate.special)
       check_special(certificate, report);
     else if (certificate.periodic)

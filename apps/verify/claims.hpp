@@ -4,28 +4,31 @@
 #include <optional>
 #include <vector>
 
+#include "cycle.hpp"
 #include "orbit.hpp"
 
 namespace verify {
 
-/// Whether the events show that a motion doesn't repeat after a share 1/parts of them.
-[[nodiscard]] bool differs_after(const std::vector<Event>& events, std::size_t parts, const Ball& total);
 /// Whether a part of the claimed periods is one; `repeats_after` tells it of a number of parts, if events leave it
 /// open.
-void check_smallest_period(const Certificate& certificate, const Scene& scene, const std::vector<Event>& events,
+void check_smallest_period(const Certificate& certificate, const Cycle& cycle,
                            const std::function<bool(long parts)>& repeats_after, Report& report);
+/// Motion that a stop lets go is known from the scene alone: it goes on as from the last time. Throws Refuted if one
+/// does so twice.
+void require_smallest_period_of_rests(long periods, const Cycle& cycle);
 /// Compares the claimed multipliers with the eigenvalues of the derivative of a period, if these can be told.
 void check_multipliers(const Certificate& certificate, const std::optional<std::vector<Vector>>& found, Report& report);
 /// `x`: where the motion starts.
-void check_word(const Certificate& certificate, const std::vector<Event>& events, const Scene& scene, const Ball& x,
-                Report& report);
+void check_word(const Certificate& certificate, const Cycle& cycle, const Scene& scene, const Ball& x, Report& report);
 /// Whether the motion is its own mirror image half a period later; `returns_mirrored` tells it of a centre, if events
 /// leave it open.
-void check_symmetry(const Certificate& certificate, const Scene& scene, const std::vector<Event>& events,
+void check_symmetry(const Certificate& certificate, const Scene& scene, const Cycle& cycle,
                     const std::function<bool(const Ball& centre)>& returns_mirrored, Report& report);
 /// The same of motion without a loose mass.
-void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report);
-void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report);
+void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
+                           Report& report);
+void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
+                    Report& report);
 /// All claims of periodic motion with a loose mass.
 void check_in_housing(const Certificate& certificate, const Scene& scene, Report& report);
 

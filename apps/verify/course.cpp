@@ -1,17 +1,20 @@
 #include "course.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "extrema.hpp"
 
 namespace verify {
-namespace {
 
 std::string named(std::size_t number, const ClaimedEvent& event) {
   const std::string name = "event " + std::to_string(number + 1) + ", " + name_of(event.kind);
   return is_of_friction(event.kind) ? name : name + " at the " + name_of(event.side) + " stop";
 }
+
+namespace {
 
 std::string found_text(const Event& event) {
   if (event.kind == Kind::end) return "no further event";
@@ -19,7 +22,10 @@ std::string found_text(const Event& event) {
   return name_of(event.kind) + place + ", time " + event.time.text();
 }
 
-double accuracy_of(const Claimed& claimed) { return claimed.error.ball().near() / 16; }
+/// A part of a claimed error that grows smaller with the precision: what one precision leaves open, a later one tells.
+double accuracy_of(const Claimed& claimed) {
+  return std::ldexp(claimed.error.ball().near(), -static_cast<int>(bits / 32));
+}
 /// How near to a stop flights must be to be left out of the extrema.
 double height_of(const Certificate& certificate) {
   double least = std::numeric_limits<double>::infinity();
@@ -35,7 +41,7 @@ Ball latest(const Claimed& claimed) { return claimed.value.ball() + claimed.erro
 Event Course::found_for(const ClaimedEvent& claim) {
   const std::size_t before = motion_.stretches().size();
   try {
-    return next_for(claim);
+    return next_event(&claim);
   } catch (const Undecided&) {
     if (motion_.stretches().size() != before ||
         !motion_.is_clear_until(smaller(latest(claim.until ? *claim.until : claim.time), end_)))
@@ -44,18 +50,27 @@ Event Course::found_for(const ClaimedEvent& claim) {
   }
 }
 
-Event Course::next_for(const ClaimedEvent& claim) {
-  if (claim.kind == Kind::chatter)
-    return motion_.finish_chatter(accuracy_of(*claim.until), latest(*claim.until), height_of(certificate_));
-  if (claim.kind == Kind::graze) return motion_.graze(claim.side, claim.time.value.ball(), end_);
-  if (holds(claim.kind)) {
-    if (!motion_.is_resting()) {  // after an impact of an inelastic stop
-      const Event event = motion_.finish_chatter(accuracy_of(claim.time), latest(claim.time), height_of(certificate_));
-      if (event.kind != Kind::chatter) return event;
-    }
-    return motion_.finish_rest(end_);
+/// A mass that is held does nothing else before it is let go, whatever is claimed. After an impact that it leaves it
+/// comes to rest by a chatter alone, which must be claimed.
+Event Course::next_event(const ClaimedEvent* claim) {
+  if (motion_.is_at_end()) return {Kind::end, Side::lower, end_, Ball(0), Ball(0)};
+  if (motion_.is_resting()) return motion_.finish_rest(end_);
+  if (claim == nullptr || motion_.is_sticking()) return motion_.next(end_);
+  if (claim->kind == Kind::chatter)
+    return motion_.finish_chatter({accuracy_of(*claim->until), height_of(certificate_), latest(*claim->until), end_});
+  if (claim->kind == Kind::graze) return motion_.graze(claim->side, claim->time.value.ball(), end_);
+  return motion_.next(end_);
+}
+
+/// Events that go back in time, or last beyond the end, are no course of a motion.
+void Course::require_order(const Event& event) const {
+  const bool is_late = lasts(event.kind) && (event.until < event.time || event.until > end_);
+  bool is_early = false;
+  if (!events_.empty()) {
+    const Event& before = events_.back();
+    is_early = event.time < (lasts(before.kind) ? before.until : before.time);
   }
-  return motion_.is_resting() ? motion_.finish_rest(end_) : motion_.next(end_);
+  if (is_late || is_early || event.time > end_) throw std::logic_error("events out of order");
 }
 
 void Course::run() {
@@ -64,23 +79,22 @@ void Course::run() {
     const Event event = found_for(claims[i]);
     if (event.kind != claims[i].kind || event.side != claims[i].side)
       throw Refuted(named(i, claims[i]) + ": claimed, found " + found_text(event));
+    require_order(event);
     events_.push_back(event);
   }
-  if (motion_.is_sticking() && !claims.empty() && claims.back().kind == Kind::stick) return;
-  if (motion_.is_resting()) {
-    if (!claims.empty() && holds(claims.back().kind)) return;
+  if (ends_with_release()) return;
+  if (motion_.is_resting() && !motion_.is_at_end())
     throw Refuted(certificate_.scene.loose
                       ? "after the last event: a wall presses the loose mass, and no press is claimed"
                       : "after the last event: a stop holds the mass, and no rest is claimed");
-  }
-  if (ends_with_release()) return;
-  const Event event = motion_.next(end_);
+  const Event event = next_event(nullptr);
   if (event.kind != Kind::end) throw Refuted("after the last event: nothing is claimed, found " + found_text(event));
 }
 
+/// Of periodic motion alone: a transient that ends just at a release may have left the stop by then.
 bool Course::ends_with_release() const {
-  return certificate_.released && !events_.empty() && events_.back().kind == Kind::rest && !motion_.is_resting() &&
-         events_.back().until.overlaps(end_);
+  return certificate_.periodic && certificate_.released && !events_.empty() && events_.back().kind == Kind::rest &&
+         !motion_.is_resting() && events_.back().until.overlaps(end_);
 }
 
 void compare_events(const Certificate& certificate, const std::vector<Event>& events, Report& report) {
@@ -106,13 +120,7 @@ void compare_extrema(const Certificate& certificate, const Followed& motion, con
         stop && !stop->soft && (certificate.released == side || std::ranges::any_of(events, [&](auto& e) {
                                   return e.side == side && !is_of_friction(e.kind);
                                 }));
-    const bool rests = motion.stretches().empty();
-    if (rests && !events.empty() && events.front().kind == Kind::stick) {
-      report.compare(side == Side::upper ? "x_max" : "x_min", events.front().x, *claim);
-      continue;
-    }
-    const Ball found = meets || rests ? scene.stop(rests && !events.empty() ? events.front().side : side).position
-                                      : extremum(motion.stretches(), motion.other_places(), sign_of(side));
+    const Ball found = meets ? stop->position : extremum(motion.stretches(), motion.other_places(), sign_of(side));
     report.compare(side == Side::upper ? "x_max" : "x_min", found, *claim);
   }
 }

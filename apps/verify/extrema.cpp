@@ -16,6 +16,7 @@ class Largest {
     best_ = !best_ || y.upper() > best_->upper() ? y : *best_;
   }
   [[nodiscard]] bool exceeds(const Ball& y) const { return best_ && y.upper() <= lower_; }
+  [[nodiscard]] bool has_any() const { return best_.has_value(); }
   [[nodiscard]] Ball value() const { return Ball::hull(lower_, best_->upper()); }
 
  private:
@@ -77,6 +78,7 @@ Ball extremum(std::span<const Stretch> stretches, std::span<const Ball> places, 
   for (const Stretch& stretch : stretches)
     for (const Ball& end : {Ball(0), stretch.length}) largest.add(x.of(stretch.flight.at(end).x, Ball(0)));
   for (const Stretch& stretch : stretches) search(stretch, x, largest);
+  if (!largest.has_any()) throw Undecided("where the mass is");
   return Ball(sign) * largest.value();
 }
 

@@ -74,6 +74,7 @@ Event Motion::stay(const Ball& end) {
   const Spring acting = spring();
   Event event{Kind::stick, Side::lower, hull.x, Ball(0), end};
   event.x = hull.y;
+  other_places_.push_back(hull.y);
   sticks_ = false;
   struct Release {
     int way;
@@ -99,7 +100,7 @@ Event Motion::stay(const Ball& end) {
   if (!first || first->time > end) {
     const Vector centre = set_.centre();
     set_.move({centre.y, Ball(0)}, {Ball(0), Ball(1), Ball(0), Ball(0)}, {Ball(0), Ball(0)});
-    on_surface_ = still_ = false, time_ = end, sticks_ = true;
+    on_surface_ = still_ = false, time_ = end, sticks_ = at_end_ = true;
     return event;
   }
   if (!(first->time < end)) throw Undecided("whether friction lets the mass go before the end");

@@ -127,20 +127,13 @@ OrbitInHousing claimed_orbit_in_housing(const Certificate& certificate, const Sc
   return found_or_undecided([&] { return orbit_near(certificate, scene); }, require_one);
 }
 
-/// The events of a period; one that starts within a press has this as a whole at its end.
-std::vector<Event> whole_events(const Certificate& certificate, const Scene& scene, std::vector<Event> events) {
-  if (!certificate.pressed || events.size() < 2) return events;
-  events.back().until = events.front().until + length_of(scene, certificate.periods);
-  events.erase(events.begin());
-  return events;
-}
-
 /// The claim of one of some parts of a motion, up to what happens at its end.
 Certificate part_of(const Certificate& certificate, const Scene& scene, const std::vector<Event>& events, int parts) {
   Certificate part = certificate;
   const Ball end = end_of(certificate, scene, Ball(parts));
   std::size_t count = 0;
   while (count < events.size() && events[count].time < end) ++count;
+  if (count > 0 && events[count - 1].kind == Kind::chatter && !(events[count - 1].until < end)) --count;
   part.events.resize(std::min(count, part.events.size()));
   return part;
 }
@@ -187,8 +180,8 @@ void check_in_housing(const Certificate& certificate, const Scene& scene, Report
   }
   compare_extrema(certificate, *orbit.motion, orbit.events, scene, report);
   check_multipliers(certificate, multipliers_of(orbit), report);
-  check_word(certificate, orbit.events, scene, orbit.x(), report);
-  const std::vector<Event> events = whole_events(certificate, scene, orbit.events);
+  const Cycle cycle(orbit.events, length_of(scene, certificate.periods), certificate.pressed.has_value());
+  check_word(certificate, cycle, scene, orbit.x(), report);
   const auto repeats_after = [&](long parts) {
     Certificate shorter = part_of(certificate, scene, orbit.events, static_cast<int>(parts));
     shorter.periods /= parts;
@@ -196,9 +189,9 @@ void check_in_housing(const Certificate& certificate, const Scene& scene, Report
     return is_alone_with(certificate, scene, orbit,
                          start + width.each([](const Ball& w) { return Ball::around_zero(w); }));
   };
-  check_smallest_period(certificate, scene, events, repeats_after, report);
+  check_smallest_period(certificate, cycle, repeats_after, report);
   const auto is_mirrored = [&](const Ball& centre) { return returns_mirrored(certificate, scene, orbit, centre); };
-  check_symmetry(certificate, scene, events, is_mirrored, report);
+  check_symmetry(certificate, scene, cycle, is_mirrored, report);
 }
 
 }  // namespace verify

@@ -106,6 +106,7 @@ Event LooseMotion::next(const Ball& end) {
   }
   stretches_.push_back({main, horizon});
   move_to_end(main, end);
+  at_end_ = true;
   return {Kind::end, wall_, end, Ball(0), Ball(0)};
 }
 

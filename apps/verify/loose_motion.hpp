@@ -20,7 +20,7 @@ class LooseMotion : public Followed {
   Event next(const Ball& end) override;
   [[nodiscard]] bool is_clear_until(const Ball& time) const override;
   Event graze(Side side, const Ball& about, const Ball& end) override;
-  Event finish_chatter(double accuracy, const Ball& latest, double height) override;
+  Event finish_chatter(const ChatterAim& aim) override;
   /// The time for which a wall presses the loose mass.
   Event finish_rest(const Ball& end) override;
 

@@ -146,6 +146,7 @@ Event Motion::next(const Ball& end) {
   }
   stretches_.push_back({all, horizon});
   move_to_end(all, end, family_ != nullptr ? family_->end_slope : Ball(0));
+  at_end_ = true;
   return {Kind::end, side_, end, Ball(0), Ball(0)};
 }
 

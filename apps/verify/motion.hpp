@@ -26,7 +26,7 @@ class Motion : public Followed {
   Event next(const Ball& end) override;
   [[nodiscard]] bool is_clear_until(const Ball& time) const override;
   Event graze(Side side, const Ball& about, const Ball& end) override;
-  Event finish_chatter(double accuracy, const Ball& latest, double height) override;
+  Event finish_chatter(const ChatterAim& aim) override;
   Event finish_rest(const Ball& end) override;
 
   [[nodiscard]] bool is_resting() const override { return resting_; }
@@ -37,7 +37,6 @@ class Motion : public Followed {
   [[nodiscard]] Vector by_parameter() const { return set_.by_parameter(); }
   [[nodiscard]] Ball start_time() const { return start_time_; }
   [[nodiscard]] slong turns_of_release() const { return turns_; }  ///< of the last release; equal phases differ by it
-  [[nodiscard]] bool was_exact() const { return was_exact_; }      ///< a rest has wiped out what was before
 
   /// The oscillator of the present mode, and what its motion must stay clear of until the next event.
   [[nodiscard]] const Flow& flow() const { return (*flows_)[number_of_flow()]; }
@@ -95,7 +94,7 @@ class Motion : public Followed {
   Mode mode_ = Mode::free;
   Side side_ = Side::lower;  ///< of the stop of the mode, or that was left
   int vanishing_ = 0;        ///< `Margin::vanishing` of the margin that the last event crossed
-  bool resting_ = false, was_exact_ = false, hits_at_start_ = false;
+  bool resting_ = false, hits_at_start_ = false;
   Ball rest_begin_, start_time_;
   slong turns_ = 0;
 };

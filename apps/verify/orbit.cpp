@@ -119,7 +119,7 @@ Orbit claimed_orbit(const Certificate& certificate, const Scene& scene) {
   std::vector<Event> events;  // a stop holds the mass for ever
   Motion motion =
       followed(certificate, scene, {certificate.start_in_balls(), {Ball(0), Ball(0)}}, certificate.periods, events);
-  if (!motion.was_exact()) throw Refuted("the mass doesn't rest for ever");
+  if (!motion.is_resting()) throw Refuted("the stop lets the mass go within the period, and it doesn't come back");
   return exact(std::move(motion), events, certificate);
 }
 

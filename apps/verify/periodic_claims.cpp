@@ -8,43 +8,11 @@
 #include <vector>
 
 namespace verify {
-namespace {
 
-/// The events without the impacts that a chatter begins with, since the claim may list any number of them.
-std::vector<Event> comparable(const std::vector<Event>& events) {
-  std::vector<Event> list;
-  for (const Event& event : events) {
-    if (event.kind == Kind::chatter)
-      while (!list.empty() && ((list.back().kind == Kind::impact && list.back().side == event.side) ||
-                               list.back().kind == Kind::reversal))
-        list.pop_back();
-    list.push_back(event);
-    if (event.kind == Kind::chatter) list.back().time = event.until;
-  }
-  return list;
-}
-
-}  // namespace
-
-bool differs_after(const std::vector<Event>& all, std::size_t parts, const Ball& total) {
-  const std::vector<Event> events = comparable(all);
-  if (events.size() % parts != 0) return true;
-  const std::size_t shift = events.size() / parts;
-  const Ball part = total / Ball(static_cast<int>(parts));
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    const std::size_t j = (i + shift) % events.size();
-    if (events[i].kind != events[j].kind || events[i].side != events[j].side) return true;
-    const Ball later = j < i || shift == events.size() ? events[j].time + total : events[j].time;
-    if (!later.overlaps(events[i].time + part) || !events[i].v.overlaps(events[j].v)) return true;
-  }
-  return false;
-}
-
-void check_smallest_period(const Certificate& certificate, const Scene& scene, const std::vector<Event>& events,
+void check_smallest_period(const Certificate& certificate, const Cycle& cycle,
                            const std::function<bool(long parts)>& repeats_after, Report& report) {
   for (long parts = 2; parts <= certificate.periods; ++parts) {
-    if (certificate.periods % parts != 0) continue;
-    if (differs_after(events, static_cast<std::size_t>(parts), length_of(scene, certificate.periods))) continue;
+    if (certificate.periods % parts != 0 || cycle.differs_after(static_cast<std::size_t>(parts))) continue;
     try {
       report.add(repeats_after(parts) ? Verdict::refuted : Verdict::undecided,
                  "periods: claimed " + std::to_string(certificate.periods) + ", found " +
@@ -56,14 +24,23 @@ void check_smallest_period(const Certificate& certificate, const Scene& scene, c
   }
 }
 
-void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report) {
+void require_smallest_period_of_rests(long periods, const Cycle& cycle) {
+  const long times = cycle.releases();
+  if (times > 1)
+    throw Refuted("periods: claimed " + std::to_string(periods) + ", and one stop lets the mass go " +
+                  std::to_string(times) + " times in them, each time to the same motion");
+}
+
+void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
+                           Report& report) {
+  if (cycle.releases() > 0) return require_smallest_period_of_rests(certificate.periods, cycle);
   const auto repeats_after = [&](long parts) {
     Certificate shorter = certificate;  // its events are the first share of them, or the claim fails
     shorter.periods = certificate.periods / parts;
     shorter.events.resize(certificate.events.size() / static_cast<std::size_t>(parts));
     return orbit.holds(periodic_orbit(shorter, scene, shorter.periods).first);
   };
-  check_smallest_period(certificate, scene, orbit.events, repeats_after, report);
+  check_smallest_period(certificate, cycle, repeats_after, report);
 }
 
 namespace {
@@ -93,20 +70,6 @@ std::string word_without_impacts(const std::vector<Event>& events, const Scene& 
   return "-";
 }
 
-/// The stops of the impacts in order; those that end in rest are one L* or U*.
-std::string letters_of(const std::vector<Event>& events) {
-  std::string word;
-  for (const Event& event : events) {
-    const char letter = event.side == Side::upper ? 'U' : 'L';
-    if (event.kind == Kind::impact || event.kind == Kind::touch) word += letter;
-    if (!holds(event.kind)) continue;
-    bool any = false;
-    while (!word.empty() && word.back() == letter) word.pop_back(), any = true;
-    if (any) (word += letter) += '*';
-  }
-  return word;
-}
-
 }  // namespace
 
 void check_multipliers(const Certificate& certificate, const std::optional<std::vector<Vector>>& found,
@@ -134,12 +97,12 @@ void check_multipliers(const Certificate& certificate, const std::optional<std::
   }
 }
 
-void check_word(const Certificate& certificate, const std::vector<Event>& events, const Scene& scene, const Ball& x,
-                Report& report) {
+void check_word(const Certificate& certificate, const Cycle& cycle, const Scene& scene, const Ball& x, Report& report) {
   if (!certificate.word) return;
-  std::string found = letters_of(events);
+  std::string found;
+  for (const std::string& letter : cycle.letters()) found += letter;
   if (certificate.word->empty() && found.empty()) return;  // says nothing of where it stays
-  if (found.empty()) found = word_without_impacts(events, scene, x);
+  if (found.empty()) found = word_without_impacts(cycle.events(), scene, x);
   if (!same_word(*certificate.word, found))
     report.add(Verdict::refuted, "word: claimed '" + *certificate.word + "', found '" + found + "'");
 }
@@ -147,21 +110,6 @@ void check_word(const Certificate& certificate, const std::vector<Event>& events
 namespace {
 
 // Symmetry: x -> 2c - x half a period later.
-
-/// Whether the mirror image half a period later has other events.
-bool differs_from_mirror(const Certificate& certificate, const std::vector<Event>& all, const Scene& scene) {
-  const std::vector<Event> events = comparable(all);
-  if (certificate.periods % 2 == 0 || events.size() % 2 != 0) return true;
-  const std::size_t shift = events.size() / 2;
-  const Ball half = length_of(scene, certificate.periods) / Ball(2);
-  for (std::size_t i = 0; i < shift; ++i) {
-    const Event &one = events[i], &other = events[i + shift];
-    if (one.kind != other.kind || (one.side == other.side && !is_of_friction(one.kind))) return true;
-    if (!other.time.overlaps(one.time + half) || !one.v.overlaps(-other.v)) return true;
-    if (one.kind >= Kind::chatter && !other.until.overlaps(one.until + half)) return true;
-  }
-  return false;
-}
 
 /// Proves that half a period takes the motion to its mirror image: this lies in the box in which the periodic motion is
 /// the only one, and the mirror image of a periodic motion is one, too.
@@ -181,22 +129,13 @@ bool returns_mirrored(const Certificate& certificate, const Scene& scene, const 
   return orbit.holds({Ball(2) * centre - image.x, -image.y});
 }
 
-/// The same of motion that rests: half a period later the other stop releases the mass. Those come once a forcing
-/// period and half of one after those of the first stop, so that overlapping times are equal.
-bool releases_mirrored(const Certificate& certificate, const Scene& scene, const Orbit& orbit) {
-  const Ball half = orbit.motion.start_time() + length_of(scene, certificate.periods) / Ball(2);
-  return certificate.periods % 2 != 0 && std::ranges::any_of(orbit.events, [&](const Event& event) {
-           return event.kind == Kind::rest && event.side == opposite(*certificate.released) &&
-                  event.until.overlaps(half);
-         });
-}
-
 }  // namespace
 
-void check_symmetry(const Certificate& certificate, const Scene& scene, const std::vector<Event>& events,
+void check_symmetry(const Certificate& certificate, const Scene& scene, const Cycle& cycle,
                     const std::function<bool(const Ball& centre)>& returns_mirrored, Report& report) {
   if (!certificate.symmetric) return;
-  const bool claimed = *certificate.symmetric, differs = differs_from_mirror(certificate, events, scene);
+  const bool claimed = *certificate.symmetric;
+  const bool differs = certificate.periods % 2 == 0 || cycle.differs_from_mirror();
   if (differs && claimed) report.add(Verdict::refuted, "symmetric: claimed true, found false");
   if (differs) return;
   const auto centre = mirror_centre(scene);
@@ -206,12 +145,12 @@ void check_symmetry(const Certificate& certificate, const Scene& scene, const st
   if (!claimed && found) report.add(Verdict::refuted, "symmetric: claimed false, found true");
 }
 
-void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report) {
+void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
+                    Report& report) {
   const auto is_mirrored = [&](const Ball& centre) {
-    return certificate.released ? releases_mirrored(certificate, scene, orbit)
-                                : returns_mirrored(certificate, scene, centre, orbit);
+    return cycle.releases() > 0 ? cycle.releases_mirrored() : returns_mirrored(certificate, scene, centre, orbit);
   };
-  check_symmetry(certificate, scene, orbit.events, is_mirrored, report);
+  check_symmetry(certificate, scene, cycle, is_mirrored, report);
 }
 
 }  // namespace verify

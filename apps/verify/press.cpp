@@ -133,12 +133,11 @@ Ball LooseMotion::Chatter::area(const FirstChange& first) const {
   return longest_ * bound_of_place(change);
 }
 
-Event LooseMotion::finish_chatter(double accuracy, const Ball& latest, double height) {
+Event LooseMotion::finish_chatter(const ChatterAim& aim) {
   const double narrow = std::max(std::exp2(-static_cast<double>(bits) / 3), 1e-26);  // of its derivative
   const Side side = wall_;
-  const Ball begin = state_of(set_.hull()).time, far = Ball(100) * scene_.period();
-  if (pressed_) return {Kind::press, side, press_begin_, Ball(0), press_begin_};
-  if (!on_surface_ || vanishing_ != 1) return next((begin + far).upper());  // it begins with an impact
+  const Ball begin = state_of(set_.hull()).time;
+  if (!on_surface_ || vanishing_ != 1) return next(aim.end);  // it begins with an impact
   for (int impacts = 0; impacts < 4000; ++impacts) {
     std::optional<Rebounds> left;
     try {
@@ -151,13 +150,15 @@ Event LooseMotion::finish_chatter(double accuracy, const Ball& latest, double he
       double wide = 0;
       for (const Four& row : left->uncertainty.rows)
         for (const Ball& entry : row.at) wide = std::max(wide, entry.radius());
-      if (until.radius() <= accuracy && loose_.share() * left->height <= Ball(height) && wide <= narrow) {
+      if (until > aim.end) return {Kind::end, side, aim.end, Ball(0), Ball(0)};
+      if (until < aim.end && until.radius() <= aim.accuracy && loose_.share() * left->height <= Ball(aim.height) &&
+          wide <= narrow) {
         press(*left);
         return {Kind::chatter, side, begin, Ball(0), until};
       }
     }
-    const Event event = next((state_of(set_.hull()).time + far).upper());
-    if (event.kind != Kind::impact || event.side != side || event.time > latest) return event;
+    const Event event = next(aim.end);
+    if (event.kind != Kind::impact || event.side != side || event.time > aim.latest) return event;
   }
   throw Undecided("the end of a chatter");
 }
@@ -200,6 +201,7 @@ Event LooseMotion::finish_rest(const Ball& end) {
   }
   stretches_.push_back({main, horizon});
   move_to_end(main, end);
+  at_end_ = true;
   return event;
 }
 

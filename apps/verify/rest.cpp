@@ -33,7 +33,7 @@ void Motion::release(Side side, const Ball& after, bool nearest) {
     time_ = time_of_phase(scene, phase_of_release(scene, side), turns_), slope = scene.stop(side).position.slope;
   }
   set_.collapse({scene_.stop(side).position, Ball(0)}, {slope, Ball(0)});
-  on_surface_ = still_ = false, was_exact_ = true, resting_ = false;
+  on_surface_ = still_ = false, resting_ = false;
   begin(Mode::free, side, 3);
   if (!scene_.is_rough()) return;
   heading_ = -sign_of(side);
@@ -86,11 +86,11 @@ Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) co
   return {Ball::hull(flight_in(most) / (Ball(1) - quickest), lasts), height};
 }
 
-Event Motion::finish_chatter(double accuracy, const Ball& latest, double height) {
+Event Motion::finish_chatter(const ChatterAim& aim) {
   const Side side = side_;
-  const Ball begin_time = state_of(set_.hull()).time, far = Ball(100) * scene_.period();
-  if (mode_ != Mode::free || vanishing_ == 0) return next((begin_time + far).upper());  // it begins with an impact
-  bool rebounds_now = true;  // else it turns back at its peak, by friction
+  const Ball begin_time = state_of(set_.hull()).time;
+  if (mode_ != Mode::free || vanishing_ == 0) return next(aim.end);  // it begins with an impact
+  bool rebounds_now = true;                                          // else it turns back at its peak, by friction
   for (int impacts = 0; impacts < 4000; ++impacts) {
     const State state = state_of(set_.hull());
     std::optional<Rebounds> left;
@@ -101,17 +101,18 @@ Event Motion::finish_chatter(double accuracy, const Ball& latest, double height)
     }
     if (left) {
       const Ball until = state.time + left->time;
-      if (until.radius() <= accuracy && left->height <= Ball(height)) {
+      if (until > aim.end) return {Kind::end, side, aim.end, Ball(0), Ball(0)};
+      if (until < aim.end && until.radius() <= aim.accuracy && left->height <= Ball(aim.height)) {
         const Ball place = scene_.stop(side).position;
         other_places_.push_back(Ball::hull(place, place - Ball(sign_of(side)) * left->height));
         resting_ = true, rest_begin_ = until;
         return {Kind::chatter, side, begin_time, Ball(0), until};
       }
     }
-    const Event event = next((state.time + far).upper());
+    const Event event = next(aim.end);
     rebounds_now = event.kind != Kind::reversal;
-    if (!rebounds_now && event.time < latest) continue;
-    if (event.kind != Kind::impact || event.side != side || resting_ || event.time > latest) return event;
+    if (!rebounds_now && event.time < aim.latest) continue;
+    if (event.kind != Kind::impact || event.side != side || resting_ || event.time > aim.latest) return event;
   }
   throw Undecided("the end of a chatter");
 }
@@ -121,11 +122,12 @@ Event Motion::finish_rest(const Ball& end) {
   Event event{Kind::rest, side_, rest_begin_, Ball(0), end};
   const Side side = side_;
   const Stop& stop = scene_.stop(side);
+  other_places_.push_back(stop.position);
   const Ball least =
       Ball(sign_of(side)) * (scene_.load - scene_.k * stop.position) + scene_.friction_static - abs(scene_.f);
   if (least.is_positive()) {  // for ever
     set_.collapse({stop.position, Ball(0)}, {Ball(0), Ball(0)});
-    time_ = end, on_surface_ = false, was_exact_ = true;
+    time_ = end, on_surface_ = false, at_end_ = true;
     return event;
   }
   release(side, rest_begin_, false);
@@ -133,7 +135,7 @@ Event Motion::finish_rest(const Ball& end) {
     event.until = time_.value;
     return event;
   }
-  resting_ = true, time_ = end;
+  resting_ = at_end_ = true, time_ = end;
   return event;
 }
 

@@ -120,11 +120,12 @@ class Exclusion {
 /// Refutes a period if the motion repeats sooner: then it is on a curve of its own, which is proved in the same way.
 void check_smallest_period(const Certificate& certificate, const Curve& curve) {
   if (certificate.released || certificate.symmetric.value_or(false)) return;
-  const std::vector<Event> events = curve.pass(curve.everywhere()).events;
+  const Cycle cycle(curve.pass(curve.everywhere()).events,
+                    length_of(certificate.scene_in_balls(), certificate.periods));
+  require_smallest_period_of_rests(certificate.periods, cycle);
   for (long parts = 2; parts <= certificate.periods; ++parts) {
-    if (certificate.periods % parts != 0) continue;
     const auto share = static_cast<std::size_t>(parts);
-    if (differs_after(events, share, length_of(certificate.scene_in_balls(), certificate.periods))) continue;
+    if (certificate.periods % parts != 0 || cycle.differs_after(share)) continue;
     Certificate shorter = certificate;
     shorter.periods /= parts, shorter.events.resize(certificate.events.size() / share);
     const std::string told =

@@ -1,0 +1,70 @@
+"""False certificates that clatter-verify of commit ca3ec2f proved are refuted, for the reason why they are false.
+
+forged_certificates.jsonl holds them, and what is true of the same motion as a control.
+
+Environment: CLATTER and CLATTER_VERIFY, the programs.
+"""
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+from certified_runs import VERIFY, verified
+
+FORGED = Path(__file__).with_name("forged_certificates.jsonl")
+
+REASONS = {  # what is said of each, None: it is true, and proved
+    "a rest within the period, and no return": "the stop lets the mass go within the period, and it doesn't come back",
+    "a transient that ends within a chatter": "event 4, rest at the upper stop: claimed until before its time",
+    "twice the period, from within a chatter": "periods: claimed 2, and one stop lets the mass go 2 times in them",
+    "x_min of a chatter that isn't followed": r"x_min: claimed 5 to 5, found \[-0\.0413737815",
+    "a chatter left out on one side of a symmetric motion": "event 2, rest at the lower stop: claimed, and neither",
+    "twice the period, a chatter left out": "event 14, press at the upper stop: claimed, and neither",
+    "a stick after the end": "event 2, stick: claimed before the end of event 1",
+    "one stick": None,
+    "one stick, and another end": r"end, x: claimed 0 to 0, found \[0.2999999",
+    "a rest twice": "event 2, rest at the upper stop: claimed before the end of event 1",
+}
+
+
+def forged():
+    return [json.loads(line) for line in FORGED.read_text(encoding="utf-8").splitlines()]
+
+
+@unittest.skipUnless(VERIFY, "Arb wasn't found when the build was configured, so there is no clatter-verify")
+class ForgedCertificates(unittest.TestCase):
+    def test_each_is_refuted_for_its_reason_and_what_is_true_is_proved(self):
+        found = {claim["line"]: claim for claim in verified(FORGED)["claims"]}
+        names = [certificate["name"] for certificate in forged()]
+        self.assertEqual(sorted(names), sorted(REASONS))
+        for number, name in enumerate(names, 1):
+            with self.subTest(name):
+                claim = found.get(number, {"verdict": "proved", "remarks": []})
+                self.assertEqual(claim["verdict"], "refuted" if REASONS[name] else "proved")
+                if REASONS[name]:
+                    self.assertRegex("\n".join(claim["remarks"]), f"(?m)^refuted: {REASONS[name]}")
+
+    def test_what_is_held_to_the_end_begins_nothing_however_wide_the_errors(self):
+        """Times and errors that don't contradict each other leave the found list alone to refute it."""
+        for name, event in (("a stick after the end", "stick"), ("a rest twice", "rest at the upper stop")):
+            (certificate,) = [one for one in forged() if one["name"] == name]
+            certificate["events"][1]["time"] = [1, 1]
+            self.assertIn(f"event 2, {event}: claimed, ", self.remark_of(certificate))
+        (certificate,) = [one for one in forged() if one["name"] == "a transient that ends within a chatter"]
+        certificate["events"][3]["until"] = [5.7, 5]
+        self.assertIn(
+            "event 3, chatter at the upper stop: claimed, found no further event", self.remark_of(certificate)
+        )
+
+    def remark_of(self, certificate):
+        with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as file:
+            file.write(json.dumps(certificate))
+            file.flush()
+            (claim,) = verified(file.name)["claims"]
+        self.assertEqual(claim["verdict"], "refuted")
+        return claim["remarks"][0]
+
+
+if __name__ == "__main__":
+    unittest.main()
