@@ -98,6 +98,7 @@ bool Course::ends_with_release() const {
 }
 
 void compare_events(const Certificate& certificate, const std::vector<Event>& events, Report& report) {
+  if (events.size() > certificate.events.size()) throw std::logic_error("more events are compared than are claimed");
   for (std::size_t i = 0; i < events.size(); ++i) {
     const ClaimedEvent& claim = certificate.events[i];
     const std::string name = named(i, claim);

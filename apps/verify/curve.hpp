@@ -47,7 +47,7 @@ class Curve {
   [[nodiscard]] const Ball& reach() const { return reach_; }
   /// The claimed errors of x, v and the parameter, about the claimed place.
   [[nodiscard]] bool may_be_claimed(const Place& place) const;
-  [[nodiscard]] const Certificate& claims() const { return kept_; }  ///< of the half that is kept
+  [[nodiscard]] bool is_mirrored() const { return mirrored_; }  ///< half a period is followed
   [[nodiscard]] MovingScene scene(const Ball& offset) const { return certificate_.moving_scene(offset); }
   /// The direction of the curve, of any length, but nowhere 0.
   [[nodiscard]] Place direction(const Passage& passage) const;

@@ -117,11 +117,31 @@ class Exclusion {
   int parts_left_ = bits > 64 ? 5000 : 100;
 };
 
+/// The claimed periods, for all values of the parameter at some places.
+Ball length_at(const Certificate& certificate, const Place& at) {
+  return Ball(static_cast<double>(certificate.periods)) * certificate.moving_scene(at.p).period().value;
+}
+
+/// All events of the claimed periods of motion at some places of the curve. Of motion that is its own mirror image half
+/// a period later only one half is followed.
+std::vector<Event> events_at(const Certificate& certificate, const Curve& curve, const Place& at) {
+  std::vector<Event> events = curve.pass(at).events;
+  if (!curve.is_mirrored()) return events;
+  const Ball half = length_at(certificate, at) / Ball(2);
+  for (std::size_t i = 0, size = events.size(); i < size; ++i) {
+    Event event = events[i];
+    event.side = opposite(event.side), event.time = event.time + half, event.v = -event.v;
+    if (lasts(event.kind)) event.until = event.until + half;
+    events.push_back(event);
+  }
+  return events;
+}
+
 /// Refutes a period if the motion repeats sooner: then it is on a curve of its own, which is proved in the same way.
 void check_smallest_period(const Certificate& certificate, const Curve& curve) {
-  if (certificate.released || certificate.symmetric.value_or(false)) return;
-  const Cycle cycle(curve.pass(curve.everywhere()).events,
-                    length_of(certificate.scene_in_balls(), certificate.periods));
+  if (certificate.released) return;
+  const Place all = curve.everywhere();
+  const Cycle cycle(events_at(certificate, curve, all), length_at(certificate, all));
   require_smallest_period_of_rests(certificate.periods, cycle);
   for (long parts = 2; parts <= certificate.periods; ++parts) {
     const auto share = static_cast<std::size_t>(parts);
@@ -139,16 +159,15 @@ void check_smallest_period(const Certificate& certificate, const Curve& curve) {
   }
 }
 
-/// The other half of a motion that is its own mirror image half a period later.
-std::vector<Event> with_mirrored(const Certificate& certificate, std::vector<Event> events) {
-  const Ball half = length_of(certificate.scene_in_balls(), certificate.periods) / Ball(2);
-  const std::size_t size = events.size();
-  for (std::size_t i = 0; i < size; ++i) {
-    Event event = events[i];
-    event.side = opposite(event.side), event.time = event.time + half, event.v = -event.v;
-    events.push_back(event);
-  }
-  return events;
+/// Of motion that starts with a release the whole period is followed, and its releases tell whether it is mirrored.
+void check_symmetry_of_rests(const Certificate& certificate, const std::vector<Event>& events, const Place& at) {
+  if (!certificate.released || !certificate.symmetric.value_or(false)) return;
+  const Cycle cycle(events, length_at(certificate, at));
+  if (certificate.periods % 2 == 0 || cycle.differs_from_mirror())
+    throw Refuted("symmetric: claimed true, found false");
+  if (!mirror_centre(certificate.moving_scene(Ball(0))))
+    throw Undecided("symmetric: the scenes aren't, to their last digit");
+  if (!cycle.releases_mirrored()) throw Undecided("symmetric: neither proved nor refuted");
 }
 
 /// The second half of the claimed events must be of the mirrored kinds.
@@ -200,9 +219,10 @@ void check_special(const Certificate& certificate, Report& report) {
     if (of_place.finding().verdict == Verdict::refuted) throw Refuted(of_place.first_refuted());
     throw Refuted(std::string("kind: claimed ") + name_of(kind) + ", found none within the errors");
   }
-  const std::vector<Event> events = curve.pass(curve.at(*found)).events;
-  if (!certificate.symmetric.value_or(false)) return compare_events(certificate, events, report);
-  compare_events(certificate, with_mirrored(certificate, events), report);
+  const Place place = curve.at(*found);
+  const std::vector<Event> events = events_at(certificate, curve, place);
+  check_symmetry_of_rests(certificate, events, place);
+  compare_events(certificate, events, report);
 }
 
 }  // namespace verify
