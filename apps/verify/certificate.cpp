@@ -1,5 +1,6 @@
 #include "certificate.hpp"
 
+#include <set>
 #include <utility>
 
 #include "field.hpp"
@@ -190,8 +191,10 @@ Certificate::SceneNumbers slopes_of(const Field& field, const Certificate::Scene
     const auto stop = field.find(name_of(side));
     if (!stop) continue;
     if (!scene.stops[index_of(side)]) stop->refuse("is of no stop", "leave it out");
-    slopes.stops[index_of(side)] = {slope(*stop, "position"), false, slope(*stop, "R"), slope(*stop, "stiffness"),
-                                    slope(*stop, "damping")};
+    const bool soft = scene.stops[index_of(side)]->soft;
+    slopes.stops[index_of(side)] = {slope(*stop, "position"), soft, soft ? Number() : slope(*stop, "R"),
+                                    soft ? slope(*stop, "stiffness") : Number(),
+                                    soft ? slope(*stop, "damping") : Number()};
   }
   if (!moves) field.refuse("leaves the scene as it is", "give the slope of a number that the parameter changes");
   return slopes;
@@ -237,17 +240,40 @@ void read_end(const Field& end, Certificate& certificate) {
     end.refuse("is not after the start", "give a later time");
 }
 
-std::string place_of(const Field& root) {
-  std::string place;
-  for (const char* const member : {"name", "point", "special", "at"}) {
-    const auto found = root.find(member);
+/// What the members for people say, and their names.
+void read_for_people(const Field& root, Certificate& certificate) {
+  std::string& place = certificate.place;
+  for (const char* const member : {"name", "point", "special", "branch", "at", "machine"}) {
+    const auto found = root.find_for_people(member);
     if (!found) continue;
+    certificate.for_people.emplace_back(member);
+    if (*member == 'b' || *member == 'm') continue;
     const std::string text = found->dump();  // without control characters
     if (!place.empty()) place += ' ';
     if (*member == 'p' || *member == 's') place.append(member).append(" ");
     place += *member == 'n' && text.size() > 1 ? text.substr(1, text.size() - 2) : text;
   }
-  return place;
+  const bool is_special = certificate.special.has_value();
+  if (is_special && !certificate.number_of_parameter()) certificate.for_people.emplace_back("parameter");
+}
+
+/// Reads JSON. An object with two members of one name says two things at once.
+Json json_of(const std::string& line) {
+  std::vector<std::set<std::string>> names;
+  const auto look = [&](int depth, Json::parse_event_t event, const Json& parsed) {
+    if (depth > 8) throw FormatError("the line nests more than eight objects; write one as the guide shows");
+    if (event == Json::parse_event_t::object_start) names.emplace_back();
+    if (event == Json::parse_event_t::key && !names.back().insert(parsed.get<std::string>()).second)
+      throw FormatError("the line has the member " + shown(parsed.get<std::string>()) +
+                        " twice in an object; keep one");
+    if (event == Json::parse_event_t::object_end) names.pop_back();
+    return true;
+  };
+  try {
+    return Json::parse(line, look);
+  } catch (const Json::exception& error) {
+    throw FormatError(std::string("is no JSON (") + error.what() + "); write one object a line");
+  }
 }
 
 }  // namespace
@@ -259,21 +285,13 @@ const char* name_of(SpecialKind kind) {
 }
 
 Certificate read_certificate(const std::string& line) {
-  Json json;
-  try {
-    json = Json::parse(line, [](int depth, Json::parse_event_t, const Json&) {
-      if (depth > 8) throw FormatError("the line nests more than eight objects; write one as the guide shows");
-      return true;
-    });
-  } catch (const Json::exception& error) {
-    throw FormatError(std::string("is no JSON (") + error.what() + "); write one object a line");
-  }
-  const Field root(json, "");
+  const Json json = json_of(line);
   if (!json.is_object()) throw FormatError("the line is no JSON object; write {...}");
+  ReadValues read;
+  const Field root(json, "", read);
   const Field format = root.get("format");
   if (format.text() != "clatter-certificate-1") format.refuse("is another one", "write \"clatter-certificate-1\"");
   Certificate certificate;
-  certificate.place = place_of(root);
   certificate.scene = scene_of(root.get("scene"));
   const Field claim = root.get("claim");
   const std::string kind = claim.text();
@@ -295,6 +313,8 @@ Certificate read_certificate(const std::string& line) {
   if (const auto x = root.find("x_min")) certificate.x_min = x->claimed();
   if (const auto x = root.find("x_max")) certificate.x_max = x->claimed();
   if (!certificate.periodic) read_end(root.get("end"), certificate);
+  read_for_people(root, certificate);
+  root.require_all_read();
   return certificate;
 }
 

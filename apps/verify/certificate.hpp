@@ -76,7 +76,8 @@ struct Certificate {
     Claimed z, w;  ///< of a loose mass
   };
 
-  std::string place;  ///< name, point and parameters, for messages
+  std::string place;                      ///< name, point and parameters, for messages
+  std::vector<std::string> for_people{};  ///< members of which nothing is proved
   SceneNumbers scene;
   bool periodic = false;  ///< special points are of periodic motion, too
   long periods = 0;
@@ -97,6 +98,9 @@ struct Certificate {
   /// The scene of a special point at some values of the parameter, less the claimed one.
   [[nodiscard]] MovingScene moving_scene(const Ball& offset) const;
   [[nodiscard]] Start start_in_balls() const;
+  /// The number of the scene that is the parameter of a special point, or less it, as its slope 1 or -1 says; the one
+  /// nearest to the claimed value if there are several. Nothing: the scene doesn't say at which value it is.
+  [[nodiscard]] std::optional<Ball> number_of_parameter() const;
 };
 
 /// Reads a line of a file. Throws FormatError.

@@ -71,6 +71,26 @@ MovingScene Certificate::moving_scene(const Ball& offset) const {
   });
 }
 
+std::optional<Ball> Certificate::number_of_parameter() const {
+  std::optional<Ball> nearest;
+  const Ball value = special->parameter.value.ball(), one(1);
+  const auto consider = [&](const Number& slope, const Number& number) {
+    const Ball s = slope.ball();
+    if (!(abs(s) - one).is_zero()) return;
+    const Ball found = s * number.ball();
+    if (!nearest || abs(found - value).near() < abs(*nearest - value).near()) nearest = found;
+  };
+  const SceneNumbers& slopes = special->slopes;
+  for (Number SceneNumbers::*const member :
+       {&SceneNumbers::h, &SceneNumbers::k, &SceneNumbers::f, &SceneNumbers::nu, &SceneNumbers::load})
+    consider(slopes.*member, scene.*member);  // a phase is counted from anywhere
+  for (std::size_t i = 0; i < 2; ++i)
+    for (Number StopNumbers::*const member :
+         {&StopNumbers::position, &StopNumbers::R, &StopNumbers::stiffness, &StopNumbers::damping})
+      if (scene.stops[i] && slopes.stops[i]) consider(*slopes.stops[i].*member, *scene.stops[i].*member);
+  return nearest;
+}
+
 Start Certificate::start_in_balls() const {
   return {start_time.ball(),
           start_x.value.ball(),

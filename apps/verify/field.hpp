@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -22,10 +23,15 @@ inline std::string shown(const std::string& text) {
   return quoted;
 }
 
+/// The values of a certificate that have been read.
+using ReadValues = std::unordered_set<const Json*>;
+
 /// A value of a certificate and its place in it.
 class Field {
  public:
-  Field(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
+  Field(const Json& json, std::string path, ReadValues& read) : json_(json), path_(std::move(path)), read_(&read) {
+    read.insert(&json);
+  }
 
   [[noreturn]] void refuse(const std::string& found, const std::string& way_out) const {
     throw FormatError(path_ + ": " + found + "; " + way_out);
@@ -34,11 +40,27 @@ class Field {
     require_object();
     const auto member = json_.find(name);
     if (member == json_.end()) return std::nullopt;
-    return Field(*member, path_.empty() ? name : path_ + "." + name);
+    return Field(*member, path_.empty() ? name : path_ + "." + name, *read_);
   }
   [[nodiscard]] Field get(const std::string& name) const {
     if (const auto member = find(name)) return *member;
-    Field(json_, path_.empty() ? name : path_ + "." + name).refuse("is missing", "add it");
+    Field(json_, path_.empty() ? name : path_ + "." + name, *read_).refuse("is missing", "add it");
+  }
+  /// A value that is for people alone, whatever it holds.
+  [[nodiscard]] std::optional<Field> find_for_people(const std::string& name) const {
+    auto member = find(name);
+    if (member) member->read_all(member->json_);
+    return member;
+  }
+  /// Throws FormatError if there is a member, at any depth, that nothing has read: nobody would look at what it claims.
+  void require_all_read() const {
+    if (json_.is_array())
+      for (const Field& item : items()) item.require_all_read();
+    if (!json_.is_object()) return;
+    for (const auto& [name, value] : json_.items()) {
+      if (read_->count(&value) == 0) refuse_member(name, "has no meaning here", "leave it out");
+      Field(value, path_.empty() ? name : path_ + "." + name, *read_).require_all_read();
+    }
   }
   void require_object() const {
     if (!json_.is_object()) refuse("is no object", "write {...}");
@@ -46,7 +68,8 @@ class Field {
   [[nodiscard]] std::vector<Field> items() const {
     if (!json_.is_array()) refuse("is no array", "write [...]");
     std::vector<Field> list;
-    for (std::size_t i = 0; i < json_.size(); ++i) list.emplace_back(json_[i], path_ + "[" + std::to_string(i) + "]");
+    for (std::size_t i = 0; i < json_.size(); ++i)
+      list.emplace_back(json_[i], path_ + "[" + std::to_string(i) + "]", *read_);
     return list;
   }
   [[nodiscard]] std::string text() const {
@@ -102,8 +125,20 @@ class Field {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
  private:
+  void read_all(const Json& json) const {
+    read_->insert(&json);
+    if (json.is_structured())
+      for (const Json& item : json) read_all(item);
+  }
+  /// A name may hold anything, and so is no part of a place.
+  [[noreturn]] void refuse_member(const std::string& name, const std::string& found, const std::string& way_out) const {
+    throw FormatError((path_.empty() ? "the line" : path_) + ": the member " + shown(name) + ' ' + found + "; " +
+                      way_out);
+  }
+
   const Json& json_;
   std::string path_;
+  ReadValues* read_;
 };
 
 }  // namespace verify

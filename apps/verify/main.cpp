@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -52,13 +53,14 @@ constexpr const char* usage =
 struct Line {
   std::size_t number = 0;
   std::string text{}, place{}, malformed{};
+  std::vector<std::string> for_people{};  ///< members of which nothing is proved
   Finding finding{};
 };
 
 void examine(Line& line) {
   try {
     const Certificate certificate = read_certificate(line.text);
-    line.place = certificate.place;
+    line.place = certificate.place, line.for_people = certificate.for_people;
     line.finding = check(certificate);
   } catch (const FormatError& error) {
     line.malformed = error.what();
@@ -90,6 +92,7 @@ class Result {
       std::cerr << place << line.malformed << '\n';
       return;
     }
+    for_people_.insert(line.for_people.begin(), line.for_people.end());
     ++count_[static_cast<std::size_t>(line.finding.verdict)];
     if (line.finding.verdict == Verdict::proved) return;
     const bool refuted = line.finding.verdict == Verdict::refuted;
@@ -107,15 +110,16 @@ class Result {
   void print() const {
     const auto [proved, undecided, refuted] = count_;
     if (json_)
-      std::cout << nlohmann::json{{"proved", proved},
-                                  {"refuted", refuted},
-                                  {"undecided", undecided},
-                                  {"malformed", malformed_},
-                                  {"claims", claims_}}
+      std::cout << nlohmann::json{{"proved", proved},        {"refuted", refuted},        {"undecided", undecided},
+                                  {"malformed", malformed_}, {"for_people", for_people_}, {"claims", claims_}}
                        .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
                 << '\n';
     else
       std::cout << proved << " proved, " << refuted << " refuted, " << undecided << " undecided\n";
+    if (json_ || for_people_.empty()) return;
+    std::string names;
+    for (const std::string& name : for_people_) names += (names.empty() ? "" : ", ") + name;
+    std::cerr << "for people, and not proved: " << names << '\n';
   }
   [[nodiscard]] ExitCode exit_code() const {
     if (malformed_ > 0) return usage_error;
@@ -129,6 +133,7 @@ class Result {
   std::size_t lines_ = 0, malformed_ = 0;
   std::array<std::size_t, 3> count_{};  ///< [Verdict]
   nlohmann::json claims_ = nlohmann::json::array();
+  std::set<std::string> for_people_{};
 };
 
 [[noreturn]] void fail(ExitCode code, const std::string& message) {

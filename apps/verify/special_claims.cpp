@@ -195,9 +195,18 @@ void require_possible_kind(const Certificate& certificate) {
   if (!grazes && kind == SpecialKind::graze) throw Refuted(claimed + ", and none among the events");
 }
 
+/// The scene is claimed to be that at the parameter's value.
+void require_scene_at_parameter(const Certificate& certificate) {
+  const Claimed& parameter = certificate.special->parameter;
+  const auto number = certificate.number_of_parameter();
+  if (number && abs(*number - parameter.value.ball()) > parameter.error.ball())
+    throw Refuted("parameter: claimed " + parameter.value.text() + " to " + parameter.error.text() +
+                  ", the scene is that at " + number->text());
+}
+
 void compare_place(const Certificate& certificate, const Place& place, Report& report) {
   const Claimed& parameter = certificate.special->parameter;
-  report.compare("parameter", parameter.value.ball() + place.p, parameter);
+  report.compare("parameter", certificate.number_of_parameter().value_or(parameter.value.ball()) + place.p, parameter);
   if (certificate.released) return;
   report.compare("start, x", place.x, certificate.start_x);
   report.compare("start, v", place.v, certificate.start_v);
@@ -207,6 +216,7 @@ void compare_place(const Certificate& certificate, const Place& place, Report& r
 
 void check_special(const Certificate& certificate, Report& report) {
   require_possible_kind(certificate);
+  require_scene_at_parameter(certificate);
   const SpecialKind kind = certificate.special->kind;
   const Curve curve(certificate);
   check_smallest_period(certificate, curve);

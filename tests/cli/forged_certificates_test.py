@@ -60,6 +60,16 @@ class ForgedCertificates(unittest.TestCase):
             "event 3, chatter at the upper stop: claimed, found no further event", self.remark_of(certificate)
         )
 
+    def test_a_parameter_is_the_number_of_the_scene_that_it_moves(self):
+        (certificate,) = [one for one in forged() if one["name"] == "one period of that fold"]
+        certificate["parameter"][0] += 0.1
+        self.assertRegex(
+            self.remark_of(certificate),
+            r"^refuted: parameter: claimed 1.52\d* to \S+, the scene is that at \[?1.42486182",
+        )
+        certificate["parameter"][0] *= -1
+        self.assertRegex(self.remark_of(certificate), "^refuted: parameter: claimed -1.52")
+
     def remark_of(self, certificate):
         with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as file:
             file.write(json.dumps(certificate))

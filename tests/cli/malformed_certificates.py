@@ -1,5 +1,7 @@
 """Certificates that are read with an error, each with the place and how to fix it that are told."""
 
+import json
+
 RIGHT = {
     "format": "clatter-certificate-1",
     "point": 3,
@@ -118,4 +120,29 @@ MALFORMED = [  # a line, and the place and how to fix it that are told
         with_loose_mass(LOOSE, **PERIOD, multipliers=[[0, 0, 1], [0, 0, 1]]),
         "multipliers: has not four items; write",
     ),
+    # what nobody would look at
+    ({**RIGHT, "periods": 7, "word": "LLL"}, "the line: the member '(periods|word)' has no meaning here; leave it out"),
+    ({**RIGHT, "simmetric": True}, "the line: the member 'simmetric' has no meaning here; leave it out"),
+    (in_scene(frictoin=2), "scene: the member 'frictoin' has no meaning here; leave it out"),
+    (in_scene(lower={"position": -5, "R": 0.7, "damping": 1}), "scene.lower: the member 'damping' has no meaning here"),
+    ({**RIGHT, "end": {**RIGHT["end"], "z": [0, 1]}}, "end: the member 'z' has no meaning here; leave it out"),
+    (
+        {**RIGHT, "start": {"time": -2.8, "released": "lower", "x": 9, "v": -4}},
+        "start: the member '[xv]' has no meaning here; leave it out",
+    ),
+    ({**RIGHT, "loose": LOOSE, "friction": 0.4}, "the line: the member '(loose|friction)' has no meaning here; leave"),
+    (
+        {**RIGHT, "events": [{"event": "impact", "stop": "lower", "time": [1, 1], "v": [1, 1], "until": [2, 1]}]},
+        r"events\[0\]: the member 'until' has no meaning here; leave it out",
+    ),
+    (
+        {
+            **{key: SPECIAL[key] for key in SPECIAL if key != "end"},
+            "slopes": {"lower": {"R": 1, "stiffness": 1}},
+            "start": {"time": 0, "x": [0, 1], "v": [0, 1]},
+        },
+        "slopes.lower: the member 'stiffness' has no meaning here; leave it out",
+    ),
+    (json.dumps(RIGHT)[:-1] + ', "end": {}}', "the line has the member 'end' twice in an object; keep one"),
+    (json.dumps(RIGHT).replace('"h":', '"k": 2, "h":'), "the line has the member 'k' twice in an object; keep one"),
 ]

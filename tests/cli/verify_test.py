@@ -290,6 +290,14 @@ class Verify(CommandLine):
         result = self.verify("-", text=json.dumps({**RIGHT, "events": [near]}))
         self.assertRegex(result.stdout, "refuted: event 1, impact at the lower stop: claimed, found no further event")
 
+    def test_members_for_people_are_named(self):
+        line = json.dumps({**RIGHT, "name": "a", "at": {"nu": 7}, "machine": {"mass": [1]}, "branch": 2})
+        result = self.verify("-", text=line)
+        self.assertEqual((result.returncode, result.stdout), (0, "1 proved, 0 refuted, 0 undecided\n"))
+        self.assertEqual(result.stderr, "for people, and not proved: at, branch, machine, name, point\n")
+        names = json.loads(self.verify("-", "--json", text=line).stdout)["for_people"]
+        self.assertEqual(names, ["at", "branch", "machine", "name", "point"])
+
     def test_wrong_command_lines_and_files(self):
         (self.directory / "empty.jsonl").write_text("\n", encoding="utf-8")
         (self.directory / "wrong.h5").write_text("\n[scene]\nx\ny\n", encoding="utf-8")
