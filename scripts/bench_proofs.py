@@ -35,7 +35,7 @@ def measured(name, folder, clatter, verify, repetitions):
     told = subprocess.run([verify, "--json", file], capture_output=True, text=True, check=False).stdout
     return {
         "name": name,
-        "certificates": len(file.read_text(encoding="utf-8").splitlines()),
+        "certificates": file.read_text(encoding="utf-8").count('"claim":'),
         "proved": json.loads(told)["proved"],
         "certify": certify,
         "verify": median_time(repetitions, verify, "--threads", "1", file),

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "certificates/certificate_text.hpp"
 #include "certificates/sample.hpp"
 #include "certified_branches.hpp"
 #include "certified_file.hpp"
@@ -54,13 +55,19 @@ int certify(const Arguments& arguments) try {
   const std::optional<std::size_t> sample = sample_of(arguments);
   const std::optional<std::string> output = text_output_of(arguments);
   std::string text;
-  const auto take = [&](std::string_view line) {
+  const auto write = [&](std::string_view line) {
     if (output)
       text += line;
     else
       std::cout.write(line.data(), static_cast<std::streamsize>(line.size()));
   };
+  std::size_t count = 0;
+  const auto take = [&](std::string_view line) {
+    if (count++ == 0) write(certificates::list_begin());
+    write(line);
+  };
   const certificates::Tally tally = tally_of(arguments.operands[0], places, sample, take);
+  if (count > 0) write(certificates::list_end(count));
   if (output) storage::write_atomically(*output, text);
   std::cerr << tally.text() << '\n';
   return tally.not_reproduced() > 0 ? points_failed : done;

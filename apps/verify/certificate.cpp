@@ -121,12 +121,26 @@ void require_stops(const Field& field, const Certificate& certificate) {
     field.refuse("start with a release by a stop", "the scene has no rigid stop there");
 }
 
-std::string word_of(const Field& field) {
-  const std::string word = field.text();
-  const bool has_no_impacts = word == "-" || word == "(L)" || word == "(U)" || word == "(S)";
-  if (!has_no_impacts && word.find_first_not_of("LU*\u2026") != std::string::npos)
+/// The letters of a word, L, U, L* and U*, and whether it ends with the mark that others follow.
+Word word_of(const Field& field) {
+  static const std::string cut = "\u2026";
+  const std::string text = field.text();
+  Word word{text, {}, false};
+  if (text.empty() || text == "-" || text == "(L)" || text == "(U)" || text == "(S)") return word;
+  std::string letters = text;
+  if (letters.ends_with(cut)) letters.resize(letters.size() - cut.size()), word.is_cut = true;
+  bool is_word = !letters.empty();
+  for (const char letter : letters) {
+    if (letter == 'L' || letter == 'U')
+      word.letters.emplace_back(1, letter);
+    else if (letter == '*' && !word.letters.empty() && word.letters.back().size() == 1)
+      word.letters.back() += letter;
+    else
+      is_word = false;
+  }
+  if (!is_word)
     field.refuse(
-        "is " + shown(word),
+        "is " + shown(text),
         "write L, U, L* and U* in the order of the impacts, (L) or (U) for a mass that stays on a stop, (S) for one "
         "that friction holds for good, or -");
   return word;
@@ -142,7 +156,7 @@ void require_claims_of_special(const Field& root) {
 
 void read_periodic(const Field& root, Certificate& certificate) {
   if (certificate.special) require_claims_of_special(root);
-  certificate.periods = root.get("periods").count(1'000'000);
+  certificate.periods = root.get("periods").count(1, 1'000'000);
   if (const auto word = root.find("word")) certificate.word = word_of(*word);
   if (const auto symmetric = root.find("symmetric")) certificate.symmetric = symmetric->flag();
   if (certificate.scene.f.ball().is_zero())
@@ -282,6 +296,20 @@ const char* name_of(SpecialKind kind) {
   static constexpr const char* names[] = {
       "fold", "flip", "symmetry breaking", "graze", "maximum impact_speed", "maximum impact_power"};
   return names[static_cast<std::size_t>(kind)];
+}
+
+std::optional<ListLine> read_list_line(const std::string& line) {
+  constexpr const char* format = "clatter-certificates-1";
+  if (line.size() > 200 || line.find(format) == std::string::npos) return std::nullopt;
+  const Json json = json_of(line);
+  ReadValues read;
+  const Field root(json, "", read);
+  if (!json.is_object() || !json.contains("format") || root.get("format").text() != format) return std::nullopt;
+  const Field certificates = root.get("certificates");
+  ListLine found{json["certificates"] == "begin", 0};
+  if (!found.begins) found.certificates = static_cast<std::size_t>(certificates.count(0, 1'000'000'000'000));
+  root.require_all_read();
+  return found;
 }
 
 Certificate read_certificate(const std::string& line) {

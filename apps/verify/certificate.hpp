@@ -47,6 +47,13 @@ struct ClaimedEvent {
   std::optional<Claimed> x{};    ///< of reversal and stick
 };
 
+/// A claimed word.
+struct Word {
+  std::string text;
+  std::vector<std::string> letters;  ///< L, U, L* and U* in the order of the impacts; none: of motion without any
+  bool is_cut = false;               ///< they are only the first ones
+};
+
 /// One line of a file, in the terms of the README.md of this folder.
 struct Certificate {
   struct StopNumbers {
@@ -89,7 +96,7 @@ struct Certificate {
   std::vector<ClaimedEvent> events;
   std::optional<Claimed> x_min, x_max;
   std::optional<End> end;
-  std::optional<std::string> word;
+  std::optional<Word> word;
   std::optional<bool> symmetric;
   std::optional<Special> special;
   std::optional<std::vector<std::array<Number, 3>>> multipliers;  ///< real part, imaginary part, error
@@ -102,6 +109,15 @@ struct Certificate {
   /// nearest to the claimed value if there are several. Nothing: the scene doesn't say at which value it is.
   [[nodiscard]] std::optional<Ball> number_of_parameter() const;
 };
+
+/// A line that begins a list of certificates, or ends it and counts those since its beginning, or since that of the
+/// file. Without it nobody would miss what is cut off at the end of a line.
+struct ListLine {
+  bool begins = false;
+  std::size_t certificates = 0;
+};
+/// Nothing if the line is no such one. Throws FormatError.
+[[nodiscard]] std::optional<ListLine> read_list_line(const std::string& line);
 
 /// Reads a line of a file. Throws FormatError.
 [[nodiscard]] Certificate read_certificate(const std::string& line);

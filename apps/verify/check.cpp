@@ -1,8 +1,10 @@
 #include "check.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 #include "claims.hpp"
+#include "deadline.hpp"
 #include "eigenvalues.hpp"
 #include "loose_motion.hpp"
 #include "order.hpp"
@@ -74,7 +76,7 @@ void check_transient(const Certificate& certificate, Report& report) {
   report.compare("end, v", end.y, certificate.end->v);
 }
 
-Finding found_in(const Certificate& certificate, slong precision) {
+Finding found_in(const Certificate& certificate, slong precision, double limit) {
   const Precision present(precision);
   Report report;
   try {
@@ -89,6 +91,8 @@ Finding found_in(const Certificate& certificate, slong precision) {
     report.add(Verdict::refuted, refuted.what());
   } catch (const Undecided& undecided) {
     report.add(Verdict::undecided, undecided.what());
+  } catch (const OutOfTime&) {
+    report.add(Verdict::undecided, "no verdict within " + Number(limit).text() + " s; --limit gives it more");
   }
   Finding finding = report.finding();
   finding.bits = precision;
@@ -97,13 +101,15 @@ Finding found_in(const Certificate& certificate, slong precision) {
 
 }  // namespace
 
-Finding check(const Certificate& certificate) {
+Finding check(const Certificate& certificate, double limit) {
+  using Clock = std::chrono::steady_clock;
+  deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit));
   Finding finding;
   const bool chatters =
       std::ranges::any_of(certificate.events, [](const ClaimedEvent& event) { return event.kind == Kind::chatter; });
   for (slong precision = chatters ? 128 : 64; precision <= 1024; precision *= 2) {  // its last flights are minute
-    finding = found_in(certificate, precision);
-    if (finding.verdict != Verdict::undecided) break;
+    finding = found_in(certificate, precision, limit);
+    if (finding.verdict != Verdict::undecided || Clock::now() >= deadline) break;
   }
   return finding;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "deadline.hpp"
 #include "extrema.hpp"
 
 namespace verify {
@@ -76,6 +77,7 @@ void Course::require_order(const Event& event) const {
 void Course::run() {
   const auto& claims = certificate_.events;
   for (std::size_t i = 0; i < claims.size(); ++i) {
+    require_time();
     const Event event = found_for(claims[i]);
     if (event.kind != claims[i].kind || event.side != claims[i].side)
       throw Refuted(named(i, claims[i]) + ": claimed, found " + found_text(event));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "deadline.hpp"
+
 namespace verify {
 
 Cycle::Cycle(std::vector<Event> events, const Ball& period, bool pressed)
@@ -44,6 +46,7 @@ std::vector<Event> Cycle::without_rebounds() const {
 /// Whether some event differs from the one that comes so many later.
 bool Cycle::differs(const std::vector<Event>& events, std::size_t shift, const Ball& later, bool mirrored) const {
   for (std::size_t i = 0; i < events.size(); ++i) {
+    require_time();
     const std::size_t j = (i + shift) % events.size();
     const Event &one = events[i], &other = events[j];
     const Ball turn = i + shift >= events.size() ? period_ : Ball(0);
@@ -78,11 +81,13 @@ long Cycle::releases() const {
 /// forcing period later: times that overlap are the same.
 bool Cycle::releases_mirrored() const {
   const Ball half = period_ / Ball(2);
-  for (const Event& one : events_)
+  for (const Event& one : events_) {
+    require_time();
     for (const Event& other : events_)
       if (one.kind == Kind::rest && other.kind == Kind::rest && one.side != other.side &&
           other.until.overlaps(one.until + half))
         return true;
+  }
   return false;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <queue>
 
+#include "deadline.hpp"
 #include "first_crossing.hpp"
 
 namespace verify {
@@ -49,6 +50,7 @@ void search(const Stretch& stretch, const Margin& x, Largest& largest) {
   };
   add(Ball(0), stretch.length.upper(), 0);
   while (!parts.empty()) {
+    require_time();
     const Part part = parts.top();
     parts.pop();
     if (largest.exceeds(part.range)) return;

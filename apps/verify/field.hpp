@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,6 +22,26 @@ inline std::string shown(const std::string& text) {
   std::string quoted(escaped);
   quoted.front() = quoted.back() = '\'';
   return quoted;
+}
+
+/// Whether a text is a decimal number: [+-] digits [. digits] [e [+-] digits], with a digit before or after the point.
+inline bool is_decimal(const std::string& text) {
+  std::size_t at = 0;
+  const auto take = [&](const char* any, std::size_t most) {
+    const std::size_t begin = at;
+    while (at < text.size() && at - begin < most && std::strchr(any, text[at]) != nullptr && text[at] != '\0') ++at;
+    return at - begin;
+  };
+  constexpr const char* digits = "0123456789";
+  take("+-", 1);
+  std::size_t mantissa = take(digits, text.size());
+  if (take(".", 1) > 0) mantissa += take(digits, text.size());
+  if (mantissa == 0) return false;
+  if (take("eE", 1) > 0) {
+    take("+-", 1);
+    if (take(digits, text.size()) == 0) return false;
+  }
+  return at == text.size();
 }
 
 /// The values of a certificate that have been read.
@@ -89,7 +110,7 @@ class Field {
     if (!json_.is_string()) refuse("is no number", "write a number, or a decimal number in quotes");
     const std::string text = json_.get<std::string>();
     Ball ball;
-    if (text.find_first_not_of("0123456789+-.eE") != std::string::npos || text.size() > 400 || !Ball::read(text, ball))
+    if (text.size() > 400 || !is_decimal(text) || !Ball::read(text, ball))
       refuse(shown(text) + " is no decimal number", "write e.g. \"0.1\"");
     if (!(abs(ball) < Ball(1e300)) || !(abs(ball) > Ball(1e-300) || ball.is_zero()))
       refuse(shown(text) + " is beyond 1e-300 to 1e300", "change the units");
@@ -109,10 +130,11 @@ class Field {
     if (pair.size() != 2) refuse("has " + std::to_string(pair.size()) + " items", "write [value, error]");
     return {pair[0].number(), pair[1].number_from(0, infinity)};
   }
-  [[nodiscard]] long count(long most) const {
-    if (!json_.is_number_integer()) refuse("is no whole number", "write 1 or more");
+  [[nodiscard]] long count(long least, long most) const {
+    if (!json_.is_number_integer()) refuse("is no whole number", "write " + std::to_string(least) + " or more");
     const auto value = json_.get<std::int64_t>();
-    if (value < 1 || value > most) refuse("is out of range", "write 1 to " + std::to_string(most));
+    if (value < least || value > most)
+      refuse("is out of range", "write " + std::to_string(least) + " to " + std::to_string(most));
     return static_cast<long>(value);
   }
   [[nodiscard]] Side side() const {

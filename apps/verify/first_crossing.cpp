@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deadline.hpp"
 #include "loose_flight.hpp"
 
 namespace verify {
@@ -72,6 +73,7 @@ std::optional<Crossing> first_crossing(double fastest, const Flight& flight, std
   const double most_pieces = std::min(8.0 * static_cast<double>(bits) + 16 * fastest * end.near(), 1e6);
   int halvings = 0;
   for (double pieces = 0; from < end; ++pieces) {
+    require_time();
     if (!(pieces < most_pieces)) throw Undecided("which event comes first, in balls as wide as these");
     Ball to = (from + step).middle();
     if (!(to < end)) to = end;

@@ -24,4 +24,9 @@ struct CertifiedPlace {
 /// double.
 [[nodiscard]] std::string certificate_text(const Certificate& certificate, const CertifiedPlace& place);
 
+/// The lines before and after the certificates of an output: the last one counts them, so that a file that was cut is
+/// known from a whole one.
+[[nodiscard]] std::string list_begin();
+[[nodiscard]] std::string list_end(std::size_t count);
+
 }  // namespace clatter::certificates

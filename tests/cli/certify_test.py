@@ -63,7 +63,13 @@ class Certify(CommandLine):
         result = self.clatter("certify", *words)
         self.assertEqual(result.returncode, code, result.stderr)
         self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-        return [json.loads(line) for line in result.stdout.splitlines()], result.stderr.strip()
+        lines = [json.loads(line) for line in result.stdout.splitlines()]
+        if not lines:  # no point has a claim
+            return [], result.stderr.strip()
+        begin, *certificates, end = lines
+        self.assertEqual(begin, {"format": "clatter-certificates-1", "certificates": "begin"})
+        self.assertEqual(end, {"format": "clatter-certificates-1", "certificates": len(certificates)})
+        return certificates, result.stderr.strip()
 
     def test_every_point_is_counted_and_most_have_a_certificate(self):
         path = self.directory / "fig23.h5"

@@ -145,4 +145,13 @@ MALFORMED = [  # a line, and the place and how to fix it that are told
     ),
     (json.dumps(RIGHT)[:-1] + ', "end": {}}', "the line has the member 'end' twice in an object; keep one"),
     (json.dumps(RIGHT).replace('"h":', '"k": 2, "h":'), "the line has the member 'k' twice in an object; keep one"),
+    ({**RIGHT, "start": {"time": 0, "x": "--1", "v": 0}}, "start.x: '--1' is no decimal number; write e.g."),
+    *(
+        (in_scene(k=text), "scene.k: .* is no decimal number; write e.g.")
+        for text in ("", ".", "+-1", "1.2.3", "1e5e5", "e5", "1e+", " 1", "1 ", "0x1", "1_0")
+    ),
+    *(
+        ({**RIGHT, "claim": "periodic", "periods": 1, "word": text}, "word: is '.*'; write L, U, .* or -")
+        for text in ("\u2026", "*L", "L**", "L\u2026U", "(U)\u2026", "l")
+    ),
 ]

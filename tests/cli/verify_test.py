@@ -9,10 +9,11 @@ import json
 import os
 import shutil
 import subprocess
+import time
 import unittest
 
 from carrying_scenes import carrying_scenes
-from certified_runs import VERIFY, certified, random_certificates, verified
+from certified_runs import VERIFY, certificates_in, certified, random_certificates, verified
 from command_line import LONGEST, SOURCE, CommandLine
 from forgeries import FORGERIES, forged
 from malformed_certificates import MALFORMED, RIGHT
@@ -192,7 +193,7 @@ class Verify(CommandLine):
     def prove_scenes(self, name, scenes):
         for file in random_certificates(self.directory / name, scenes):
             with self.subTest(file):
-                count = len(file.read_text(encoding="utf-8").splitlines())
+                count = len(certificates_in(file))
                 self.assertGreater(count, len(scenes) // 4)
                 self.assert_proved(verified(file), 0.98 * count, undecided=count // 50)
         shutil.rmtree(self.directory / name)
@@ -210,13 +211,13 @@ class Verify(CommandLine):
         ):
             file = self.certificates(name, config)
             self.assert_proved(verified(file), 1)
-            for line in file.read_text(encoding="utf-8").splitlines():
-                for kind, forgery in forged(json.loads(line)):
+            for certificate in certificates_in(file):
+                for kind, forgery in forged(certificate):
                     lines.append(json.dumps(forgery)), kinds.append(kind)
         self.clatter("branch", SOURCE / "configs/branch.toml", "-q", "-o", "b.h5")
         certified(self.directory / "b.h5", self.directory / "b.jsonl", "--sample", "20")
-        for line in (self.directory / "b.jsonl").read_text(encoding="utf-8").splitlines():
-            if (certificate := json.loads(line))["claim"] == "special":
+        for certificate in certificates_in(self.directory / "b.jsonl"):
+            if certificate["claim"] == "special":
                 for kind, forgery in forged(certificate):
                     lines.append(json.dumps(forgery)), kinds.append(kind)
         (self.directory / "forged.jsonl").write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -230,7 +231,7 @@ class Verify(CommandLine):
 
     def test_where_motion_without_impacts_stays_is_proved_and_other_words_are_refuted(self):
         files = [self.certificates(stop[:4], QUIET.format(stop)) for stop in ("stop_stiffness = 20", "R = 0.5")]
-        certificates = [json.loads(line) for file in files for line in file.read_text(encoding="utf-8").splitlines()]
+        certificates = [certificate for file in files for certificate in certificates_in(file)]
         words = ["(L)", "-", "(U)"]
         self.assertEqual([certificate["word"] for certificate in certificates], [*words, *words])
         for certificate in certificates:
@@ -241,8 +242,7 @@ class Verify(CommandLine):
                     self.assertIn(f"word: claimed '{word}', found '{certificate['word']}'", result.stdout)
 
     def test_a_scene_that_is_symmetric_to_24_digits_only_proves_no_symmetry(self):
-        for line in self.certificates("soft", SOFT).read_text(encoding="utf-8").splitlines():
-            certificate = json.loads(line)
+        for certificate in certificates_in(self.certificates("soft", SOFT)):
             if certificate.get("symmetric") and certificate["events"]:
                 break
         self.assertEqual(self.verify("-", text=json.dumps(certificate)).returncode, 0)
@@ -290,6 +290,82 @@ class Verify(CommandLine):
         result = self.verify("-", text=json.dumps({**RIGHT, "events": [near]}))
         self.assertRegex(result.stdout, "refuted: event 1, impact at the lower stop: claimed, found no further event")
 
+    def test_what_is_refuted_counts_before_all_else_and_no_file_hides_another(self):
+        wrong = json.dumps({**RIGHT, "end": {**RIGHT["end"], "x": [1, 1e-3]}})
+        self.write("wrong.jsonl", wrong + "\n")
+        self.write("right.jsonl", json.dumps(RIGHT) + "\n")
+        self.write("no.json", "{\n")
+        self.write("no.txt", "text\n")
+        for names, code, counts in (
+            (("wrong.jsonl", "missing.jsonl"), 1, "0 proved, 1 refuted"),
+            (("missing.jsonl", "no.txt", "wrong.jsonl", "right.jsonl"), 1, "1 proved, 1 refuted"),
+            (("no.json", "wrong.jsonl"), 1, "0 proved, 1 refuted"),
+            (("right.jsonl", "missing.jsonl", "no.json"), 74, "1 proved, 0 refuted"),
+            (("no.txt", "right.jsonl"), 2, "1 proved, 0 refuted"),
+            (("no.json", "right.jsonl"), 2, "1 proved, 0 refuted"),
+        ):
+            with self.subTest(names):
+                result = self.verify(*names)
+                self.assertEqual(result.returncode, code, result.stderr)
+                self.assertIn(counts, result.stdout)
+
+    def test_what_a_file_says_gives_the_terminal_no_orders(self):
+        orders = "\x1b[2J\x9b2J\u202e\u200f\u2066\u0007"
+        named = json.dumps(
+            {**RIGHT, "name": f"a ν{orders}", "end": {**RIGHT["end"], "x": [1, 1e-3]}}, ensure_ascii=False
+        )
+        unknown = json.dumps({**RIGHT, orders: 1}, ensure_ascii=False)
+        lines = [named, unknown, '{"a": "\x9b"\u202e}', '{"word": \x1b[2J}', json.dumps({**RIGHT, "claim": orders})]
+        raw = "\n".join(lines).encode() + b'\n{"a": \x9b\xff}\n'
+        for words in ((), ("--json",)):
+            result = subprocess.run([VERIFY, "-", *words], input=raw, capture_output=True, timeout=LONGEST, check=False)
+            self.assertEqual(result.returncode, 1)
+            shown = (result.stdout + result.stderr).decode()  # UTF-8
+            self.assertEqual([c for c in shown if not c.isprintable() and c != "\n"], [])
+            self.assertEqual(len(result.stderr.splitlines()), 5 + (not words))
+        self.assertIn("a ν", self.verify("-", text=named).stdout)
+
+    def test_an_editors_mark_of_utf_8_is_no_mistake(self):
+        self.assertEqual(self.verify("-", text="\ufeff" + json.dumps(RIGHT)).returncode, 0)
+
+    def test_a_file_that_was_cut_isnt_proved(self):
+        file = self.certificates("soft", SOFT)
+        lines = file.read_text(encoding="utf-8").splitlines(keepends=True)
+        self.assertGreater(len(lines), 10)
+        self.assertEqual(self.verify("-", text="".join(lines)).returncode, 0)
+        self.assertEqual(self.verify("-", text="".join(lines * 2)).returncode, 0)
+        self.assertEqual(self.verify("-", text="".join(lines[1:-1])).returncode, 0)  # lines that aren't from a file
+        for cut in (lines[:-1], lines[:-2], lines[:2], lines[:5] + lines):
+            result = self.verify("-", text="".join(cut))
+            self.assertEqual(result.returncode, 2)
+            self.assertRegex(result.stderr, "stdin:\\d+: the line is followed by no count of the certificates, so some")
+        for cut in (lines[:3] + lines[4:], lines[:-1] + lines[5:], lines[2:], lines[:1] + lines[-1:]):
+            result = self.verify("-", text="".join(cut))
+            self.assertEqual(result.returncode, 2)
+            self.assertRegex(
+                result.stderr, "stdin:\\d+: the line counts \\d+ certificates before it, and there are \\d+; "
+            )
+        end = json.dumps({"format": "clatter-certificates-1", "certificates": -1})
+        self.assertIn("certificates: is out of range; write 0 to", self.verify("-", text=lines[1] + end).stderr)
+
+    def test_a_claim_has_its_time_and_a_line_its_length(self):
+        right = json.dumps(RIGHT)
+        for end in ("1e300", 1e15):
+            far = json.dumps({**RIGHT, "end": {**RIGHT["end"], "time": end}})
+            begin = time.monotonic()
+            result = self.verify("-", "--limit", "0.5", text=f"{far}\n{right}\n")
+            self.assertLess(time.monotonic() - begin, 10)
+            self.assertEqual(result.returncode, 3)
+            self.assertIn("undecided: no verdict within 0.5 s; --limit gives it more", result.stdout)
+            self.assertIn("1 proved, 0 refuted, 1 undecided", result.stdout)
+        long = " " * 17 * 2**20
+        result = self.verify("-", text=f"{long}{right}\n{right}\n")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(
+            result.stderr, "^stdin:1: the line has 178\\d+ bytes; write a certificate in 16777216 at most\n"
+        )
+        self.assertIn("1 proved", result.stdout)
+
     def test_members_for_people_are_named(self):
         line = json.dumps({**RIGHT, "name": "a", "at": {"nu": 7}, "machine": {"mass": [1]}, "branch": 2})
         result = self.verify("-", text=line)
@@ -312,6 +388,8 @@ class Verify(CommandLine):
                 "wrong.h5:2: isn't the JSON of a certificate; name a file that clatter certify wrote\n$",
             ),
             (("empty.jsonl", "--threads", "0"), 2, "--threads must be 1 to 1024"),
+            (("empty.jsonl", "--limit", "0"), 2, "--limit must be above 0"),
+            (("empty.jsonl", "--limit", "nan"), 2, "--limit must be above 0"),
             (("empty.jsonl", "--threads", "x"), 2, "the argument .* is invalid; see clatter-verify --help"),
         ):
             result = self.verify(*words)
