@@ -30,6 +30,8 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
                (default 300; about 0.5 s each)
   verify       COUNT random scenes certified and proved by clatter-verify, and all points of the shipped
                configurations and branches (default 100000; about 25 ms each)
+  forgers      COUNT false certificates, edited at random, of which clatter-verify proves none
+               (default 20000; about 10 ms each)
   scenes       all hard scenes proved by clatter-verify and written anew (no COUNT; about 5 minutes)
   starts       tests/regression on every instruction set with all starts of basins and zones, of which
                ctest runs all on the widest set only (no COUNT; about 2 minutes)
@@ -55,6 +57,7 @@ case "${1-}" in
     filter='sensitivity_relations_test.OfRandomScenes loose_mass_sensitivity_test.OfRandomScenes' ;;
   releases) filter=releases_test.Releases.test_random_rests_are_told_as_60_digits_tell_them count=300 ;;
   verify) filter=verify_test.Verify count=100000 ;;
+  forgers) filter=forgers_test.Forgers count=20000 ;;
   scenes) filter=hard_scenes_test.HardScenes count=1 ;;
   starts) filter=regress_test.Regress.test_the_committed_baseline_holds_on_every_instruction_set count=1 ;;
   -h | --help) usage; exit 0 ;;
@@ -71,7 +74,7 @@ top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 if [[ $filter == *_test* ]]; then
   export CLATTER=$top/build/release/apps/clatter/clatter CLATTER_KILLS=$count CLATTER_DISKS=$count
   export CLATTER_COMBINATIONS=$count CLATTER_RELEASES=$count CLATTER_VERIFIED=$count CLATTER_SENSITIVITY=$count
-  export CLATTER_COINCIDENCES=$count
+  export CLATTER_COINCIDENCES=$count CLATTER_FORGED=$count
   export CLATTER_VERIFY=$top/build/release/apps/verify/clatter-verify CLATTER_SOURCE=$top
   export PYTHONDONTWRITEBYTECODE=1
   [[ $1 != starts ]] || export CLATTER_ALL_STARTS=1

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -16,6 +17,19 @@ def verified(*files):
     if result.returncode not in (0, 1, 3):
         raise RuntimeError(f"{result.returncode}: {result.stderr}")
     return json.loads(result.stdout)
+
+
+def verdicts(file):
+    """The verdict of clatter-verify on each line of a file."""
+    result = subprocess.run([VERIFY, "--json", file], capture_output=True, text=True, check=False)
+    told = json.loads(result.stdout)
+    by_line = {claim["line"]: claim["verdict"] for claim in told["claims"]}
+    by_line |= {int(line): "malformed" for line in re.findall(r"^[^\n]*?:(\d+): ", result.stderr, re.MULTILINE)}
+    count = len(Path(file).read_text(encoding="utf-8").splitlines())
+    found = [by_line.get(number, "proved") for number in range(1, count + 1)]
+    if any(found.count(name) != told[name] for name in ("proved", "refuted", "undecided", "malformed")):
+        raise RuntimeError(f"{result.returncode}: {result.stderr}")
+    return found
 
 
 def certified(output, certificates, *words):
