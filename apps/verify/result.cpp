@@ -1,6 +1,7 @@
 #include "result.hpp"
 
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "printable.hpp"
 
@@ -32,12 +33,7 @@ void Result::add(const std::string& file, const Line& line) {
 void Result::tell(const std::string& file, const Line& line, const char* verdict,
                   const std::vector<std::string>& remarks) {
   if (json_) {
-    claims_.push_back({{"file", file},
-                       {"line", line.number},
-                       {"place", line.place},
-                       {"verdict", verdict},
-                       {"bits", line.finding.bits},
-                       {"remarks", remarks}});
+    claims_.push_back({file, line.place, verdict, line.number, line.finding.bits, remarks});
     return;
   }
   for (const std::string& remark : remarks)
@@ -49,9 +45,17 @@ void Result::tell(const std::string& file, const Line& line, const char* verdict
 void Result::print() const {
   const auto [proved, undecided, refuted] = count_;
   if (json_) {
+    nlohmann::json claims = nlohmann::json::array();
+    for (const Told& told : claims_)
+      claims.push_back({{"file", told.file},
+                        {"line", told.line},
+                        {"place", told.place},
+                        {"verdict", told.verdict},
+                        {"bits", told.bits},
+                        {"remarks", told.remarks}});
     std::cout << nlohmann::json{{"proved", proved},        {"refuted", refuted}, {"undecided", undecided},
                                 {"malformed", malformed_}, {"bugs", bugs_},      {"for_people", for_people_},
-                                {"claims", claims_}}
+                                {"claims", claims}}
                      .dump(2, ' ', true, nlohmann::json::error_handler_t::replace)
               << '\n';
     return;

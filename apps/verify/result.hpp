@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -46,13 +45,20 @@ class Result {
   [[nodiscard]] std::size_t certificates() const { return certificates_; }
 
  private:
+  /// A line that isn't proved, as JSON tells it.
+  struct Told {
+    std::string file{}, place{}, verdict{};
+    std::size_t line = 0;
+    slong bits = 0;
+    std::vector<std::string> remarks{};
+  };
   void tell(const std::string& file, const Line& line, const char* verdict, const std::vector<std::string>& remarks);
 
   bool json_;
   std::size_t certificates_ = 0, malformed_ = 0, bugs_ = 0;
   std::array<std::size_t, 3> count_{};  ///< [Verdict]
   bool has_unread_files_ = false, has_empty_files_ = false;
-  nlohmann::json claims_ = nlohmann::json::array();
+  std::vector<Told> claims_{};
   std::set<std::string> for_people_{};
 };
 

@@ -186,9 +186,7 @@ std::string certificate_text(const Certificate& certificate, const CertifiedPlac
   return json.dump() + '\n';
 }
 
-std::string list_begin() {
-  return Json{{"format", "clatter-certificates-1"}, {"certificates", "begin"}}.dump() + '\n';
-}
+std::string list_begin() { return Json{{"format", "clatter-certificates-1"}, {"certificates", "begin"}}.dump() + '\n'; }
 std::string list_end(std::size_t count) {
   return Json{{"format", "clatter-certificates-1"}, {"certificates", count}}.dump() + '\n';
 }
