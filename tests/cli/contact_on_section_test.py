@@ -87,6 +87,63 @@ period = true
 """
 
 
+# Without a spring and a load, what friction and a stop that takes all leave of a drift just touches the stop.
+TOUCHING = """[scene]
+h = 1.3624291968558035
+f = -0.4302328379882873
+nu = 1.3667133584030076
+stiffness = 0
+x0 = 0.1
+v0 = 1
+stop_lower = -0.14
+stop_upper = 0.13753842955603268
+R_upper = 0
+friction = 0.16402757632721277
+[sweep]
+phase = "linspace(0, 6, 61)"
+[observe]
+word = true
+stability = true
+"""
+
+# The section falls into the chatter before a rest, under dry friction.
+RESTING = """[scene]
+h = 0.004393983116743453
+f = 1
+nu = 0.6901860784684432
+phase = 2.4396100162658794
+x0 = 0.3426117537545702
+v0 = -6.418748442359656e-08
+xs = 0.3426117537545702
+R = 0.4822594183194273
+friction = 0.25094344695650295
+friction_static = 0.2695299116220043
+[observe]
+period = true
+word = true
+stability = true
+extrema = true
+"""
+
+# The spring pushes away, so differences grow, and an impact falls on the section.
+PUSHED = """[scene]
+h = 1.2789816137916914
+f = 1
+nu = 0.6168788609007022
+phase = {phase!r}
+stiffness = -0.013943075856218914
+x0 = 1.3357405414356462
+v0 = -0.09735920898090801
+stop_lower = -inf
+stop_upper = 1.3357405414356462
+R_upper = 0.9491864839579807
+[observe]
+period = true
+word = true
+stability = true
+"""
+
+
 class ContactOnSection(CommandLine):
     def run_on(self, arch, text, name="scene"):
         done = self.clatter(
@@ -146,6 +203,29 @@ class ContactOnSection(CommandLine):
             with self.subTest(shift=shift), self.run_on("scalar", text) as file:
                 self.assertEqual(file["impact_word"][()].decode(), "LLLLSUS")
                 self.assertEqual(file["period_ratio"][()], 1)
+
+    def test_a_drift_that_a_stop_has_ended_meets_it_without_speed(self):
+        """So it has no impact; or rounding decides, where a section divides the way to the stop."""
+        with self.run_on("scalar", TOUCHING) as file:
+            for status, word in zip(file["status"][()], file["impact_word"][()]):
+                self.assertTrue(status == 3 or (status == 0 and word == b"(U)"), (status, word))
+
+    def test_a_section_within_the_chatter_before_a_rest_under_friction_changes_nothing(self):
+        """In 50 digits, too, which decide the period of such motion."""
+        with self.run_on("scalar", RESTING) as file:
+            told = [file[name][()] for name in ("status", "impact_word", "period_ratio", "x_min", "x_max")]
+            self.assertEqual(told, [0, b"L*U*", 1, -0.3426117537545702, 0.3426117537545702])
+            np.testing.assert_array_equal(file["multiplier_re"][()], 0)
+
+    def test_motion_pushed_away_from_the_middle_that_begins_just_beside_an_impact_is_periodic(self):
+        multipliers = []
+        for late in (-1e-6, -1e-12, -1e-13, 0.0, 1e-13, 1e-12, 3e-12, 1e-6):
+            with self.subTest(late=late), self.run_on("scalar", PUSHED.format(phase=3.123746643560396 + late)) as file:
+                self.assertEqual(file["status"][()], 0)
+                self.assertEqual(file["impact_word"][()].decode(), "U")
+                self.assertEqual(file["period_ratio"][()], 2)
+                multipliers.append(file["multiplier_re"][0])
+        np.testing.assert_allclose(multipliers, multipliers[0], atol=1e-7)
 
 
 if __name__ == "__main__":
