@@ -208,11 +208,11 @@ class Follower {
       if (const auto at = solution(there, point.at, settings_.tolerance)) exact.at = *at;
     }
     const BranchPoint at = record_.point(equations, exact);
-    const auto [special, is_new] = record_.note(kind, at);
-    if (!is_new)  // a branch that passes where another one was born, and waits there, is that one
-      std::erase_if(waiting_, [&](const Waiting& one) { return one.special == special && one.passes; });
-    else if (gives_birth && !leaves_out(kind, special))
-      waiting_.push_back(daughter_at(at, special, generation_ + 1));
+    const auto noted = record_.note(kind, at);
+    if (!noted.is_new)  // a branch that passes where another one was born, and waits there, is that one
+      std::erase_if(waiting_, [&](const Waiting& one) { return one.special == noted.number && one.passes; });
+    else if (gives_birth && !leaves_out(kind, noted.number))
+      waiting_.push_back(daughter_at(at, noted.number, generation_ + 1));
   }
 
   /// Without restitution, a flight that begins with a turn into its stop doesn't begin: the mass is pressed, and rests.

@@ -34,15 +34,15 @@ std::optional<FrictionEnd> nearest_end(const Equations& builder, const OrbitEqua
   const FollowedScene beyond = walked.scene_at(between.beyond.at);
   if (!has_friction(beyond.friction)) return std::nullopt;
   const std::vector<Violation> violations = slip_violations(beyond, walked.orbit_at(between.beyond.at), {});
-  const auto& [parameter, unit] = walked.axes().front();
+  const OrbitEquations::Axis& axis = walked.axes().front();
   // where derivatives have no digits, bisection ends while the bracket is still wide
   within = std::max(within, std::abs(between.beyond.at.back() - between.last_good.at.back()));
   std::optional<FrictionEnd> nearest;
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](const std::optional<ExactGraze>& exact, auto&&... what) {
     if (!exact) return;
-    const double off =
-        outside(value_of(exact->scene, parameter) / unit, between.last_good.at.back(), between.beyond.at.back());
+    const double off = outside(value_of(exact->scene, axis.parameter) / axis.unit, between.last_good.at.back(),
+                               between.beyond.at.back());
     if (off < least) least = off, nearest = FrictionEnd{*exact, what...};
   };
   for (const HaltChange& change : halt_changes(walked, between, violations))
