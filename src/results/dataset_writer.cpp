@@ -245,13 +245,13 @@ double bytes_of(const Variable& variable, const Dataset& dataset) {
 
 /// Writes scales first, since netCDF numbers dimensions in their order of creation. Takes the values out of the
 /// dataset.
-void write_dataset(const NewFile& file, Dataset& dataset, storage::FileWriter& disk) {
+void write_dataset(const NewFile& file, Dataset& dataset) {
   double left = 0;
   for (const Variable& variable : dataset.variables) left += bytes_of(variable, dataset);
   const auto expect_less = [&](const Variable& variable) {
-    disk.expect(static_cast<std::uint64_t>(std::max(0.0, left -= bytes_of(variable, dataset))));
+    file.pages.expect(static_cast<std::uint64_t>(std::max(0.0, left -= bytes_of(variable, dataset))));
   };
-  disk.expect(static_cast<std::uint64_t>(left));
+  file.pages.expect(static_cast<std::uint64_t>(left));
   std::map<std::string, Handle> scales;
   for (const NamedLength& dimension : dataset.dimensions) {
     scales.emplace(dimension.name, write_scale(file, dimension, dataset));
@@ -300,7 +300,7 @@ std::uint64_t build(storage::FileWriter& file, Dataset& dataset, const FileHead&
     const Handle hdf5 = create(pages);
     write_origin(hdf5, head);
     put(hdf5, dataset.attributes);
-    write_dataset({pages, hdf5, head.compression}, dataset, file);
+    write_dataset({pages, hdf5, head.compression}, dataset);
   } catch (const detail::Failure& failure) {
     pages.rethrow();
     throw storage::no_memory(std::string("the output file cannot be built (") + failure.what() + ')');

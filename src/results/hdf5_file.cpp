@@ -83,14 +83,28 @@ FileInPages::Page& FileInPages::page(std::uint64_t number) {
   return page;
 }
 
+/// The bytes of a page within the file.
+std::uint64_t FileInPages::bytes_of(std::uint64_t number) const {
+  const std::uint64_t begin = number * page_size;
+  return begin < size_ ? std::min<std::uint64_t>(page_size, size_ - begin) : 0;
+}
+
+/// Tells the disk that so many bytes follow, and all pages and what is still to come: it frees room for all, or none.
+void FileInPages::expect_on_disk(std::uint64_t bytes) const {
+  for (const auto& [number, page] : pages_) bytes += bytes_of(number);
+  file_.expect(to_come_ + bytes);
+}
+
 void FileInPages::write(std::uint64_t at, std::span<const std::byte> bytes) {
   if (error_) return;
+  to_come_ -= std::min<std::uint64_t>(to_come_, bytes.size());
   try {
     while (!bytes.empty()) {
       const std::uint64_t number = at / page_size, within = at % page_size;
       const std::size_t some = std::min<std::size_t>(bytes.size(), page_size - within);
       if (some == page_size) {
         pages_.erase(number);
+        expect_on_disk(bytes.size());
         file_.write(at, bytes.first(some));
         written_ = std::max(written_, at + some);
       } else {
@@ -119,10 +133,11 @@ void FileInPages::read(std::uint64_t at, std::span<std::byte> bytes) {
 }
 
 void FileInPages::write_pages() {
+  expect_on_disk(0);
   for (const auto& [number, page] : pages_) {
     const std::uint64_t begin = number * page_size;
-    if (begin >= size_) break;
-    const auto some = static_cast<std::size_t>(std::min<std::uint64_t>(page_size, size_ - begin));
+    const auto some = static_cast<std::size_t>(bytes_of(number));
+    if (some == 0) break;
     file_.write(begin, std::span(page).first(some));
     written_ = std::max(written_, begin + some);
   }

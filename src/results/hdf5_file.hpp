@@ -30,6 +30,8 @@ class FileInPages {
   [[nodiscard]] static const void* place_only();
   static constexpr std::size_t least_placed = 128UL * 1024;  ///< bytes
 
+  /// Tells an upper bound of the bytes that are still to be passed to `write`.
+  void expect(std::uint64_t bytes) { to_come_ = bytes; }
   void write(std::uint64_t at, std::span<const std::byte> bytes);
   void read(std::uint64_t at, std::span<std::byte> bytes);
 
@@ -49,12 +51,15 @@ class FileInPages {
   using Page = std::array<std::byte, page_size>;
 
   [[nodiscard]] Page& page(std::uint64_t number);
+  [[nodiscard]] std::uint64_t bytes_of(std::uint64_t number) const;
+  void expect_on_disk(std::uint64_t bytes) const;
   void write_pages();
 
   storage::FileWriter& file_;
   std::map<std::uint64_t, Page> pages_;  ///< by number; not yet written
   std::uint64_t size_ = 0;               ///< of the file, as HDF5 tells it
   std::uint64_t written_ = 0;            ///< end of what was ever written to the disk
+  std::uint64_t to_come_ = 0;            ///< bytes, at most
   std::exception_ptr error_;
 };
 

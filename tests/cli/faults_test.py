@@ -37,19 +37,24 @@ class Faults(FaultyCalls):
         self.stop_on_its_way()
         return self.journal.read_bytes()
 
-    def most(self):
-        """The journal of a run that was stopped again and again, and has about three quarters: what goes on from it
-        saves points, too, and takes less time than from a half."""
+    def journals(self):
+        """The journals of a run that was stopped again and again, up to the last before it was done."""
         self.stop_on_its_way()
         journals = [self.journal.read_bytes()]
         for attempt in range(200):
             result = self.run_command("--max-time", f"{0.005 * 1.1**attempt:.4g}", threads=1)
             if result.returncode == 0:
-                shorter = [one for one in journals if len(one) <= 0.8 * len(journals[-1])]
-                return (shorter or journals[:1])[-1]
+                return journals
             self.assertEqual(result.returncode, 124, result.stderr)
             journals.append(self.journal.read_bytes())
         return self.fail("it doesn't get on")
+
+    def most(self):
+        """A journal with about three quarters of the points: what goes on from it saves points, too, and takes less
+        time than from a half."""
+        journals = self.journals()
+        shorter = [one for one in journals if len(one) <= 0.8 * len(journals[-1])]
+        return (shorter or journals[:1])[-1]
 
     def assert_whole_or_nothing(self, code, said):
         """A run in which something went wrong leaves a whole output and a success, or neither."""
@@ -208,6 +213,16 @@ class Faults(FaultyCalls):
                 if saved and not done:  # the way out: a larger place
                     self.begin_anew(saved)
                     self.assert_completes(context)
+
+    def test_a_disk_that_lacks_little_without_its_journal_keeps_the_journal(self):
+        """Its room is given to the output if that is enough, else it isn't."""
+        journals = [journal for journal in self.journals() if len(journal) < len(self.whole)]
+        for journal in journals[:: -(-len(journals) // 12)]:
+            with self.small_disk(len(self.whole) // 1024 - 4) as disk:
+                (disk / "a.h5.journal").write_bytes(journal)
+                result = self.run_command(threads=1, output=disk / "a.h5")
+                self.assertEqual(result.returncode, 74, result.stderr)
+                self.assertTrue((disk / "a.h5.journal").read_bytes().startswith(journal), (len(journal), result.stderr))
 
     def test_a_disk_that_holds_the_output_and_not_its_journal_is_enough(self):
         larger = ("--set", "observe.trajectory=100")
