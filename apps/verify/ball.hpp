@@ -23,6 +23,7 @@ class Ball {
   Ball() { arb_init(x_); }
   Ball(int value) : Ball() { arb_set_si(x_, value); }    // NOLINT(google-explicit-constructor)
   Ball(double value) : Ball() { arb_set_d(x_, value); }  // NOLINT(google-explicit-constructor): exact
+  explicit Ball(slong value) : Ball() { arb_set_si(x_, value); }
   Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
   Ball(Ball&& other) noexcept : Ball() { arb_swap(x_, other.x_); }
   ~Ball() { arb_clear(x_); }

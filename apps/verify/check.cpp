@@ -70,6 +70,9 @@ void check_transient(const Certificate& certificate, Report& report) {
   const Scene scene = certificate.scene_in_balls();
   if (scene.loose) return check_transient_in_housing(certificate, scene, report);
   Motion motion(scene, certificate.start_in_balls(), {Ball(0), Ball(0)});
+  const Ball length = certificate.end->time.ball() - motion.start_time();  // of motion that a stop releases from there
+  if (length.is_negative()) throw Refuted("end: claimed before the stop releases the mass");
+  if (!length.is_positive()) throw Undecided("whether the motion ends before the stop releases the mass");
   follow(certificate, motion, scene, report);
   const Vector end = motion.state();
   report.compare("end, x", end.x, certificate.end->x);

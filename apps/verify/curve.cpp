@@ -78,7 +78,7 @@ Curve::Passage Curve::pass(const Place& at) const {
   };
   const auto keep = std::make_shared<Kept>();
   keep->family.scene = certificate_.moving_scene(at.p), keep->scene = values_of(keep->family.scene);
-  const Dual whole = Dual(Ball(static_cast<double>(certificate_.periods))) * keep->family.scene.period();
+  const Dual whole = Dual(Ball(certificate_.periods)) * keep->family.scene.period();
   const Dual length = mirrored_ ? whole / Dual(2) : whole;
   keep->family.end_slope = length.slope;
   Start start = certificate_.start_in_balls();

@@ -16,6 +16,10 @@ class Largest {
     if (!best_ || y.lower() > lower_) lower_ = y.lower();
     best_ = !best_ || y.upper() > best_->upper() ? y : *best_;
   }
+  /// Adds a number that may not be one of them: none is larger for it.
+  void add_bound(const Ball& y) {
+    if (best_ && y.upper() > best_->upper()) best_ = y;
+  }
   [[nodiscard]] bool exceeds(const Ball& y) const { return best_ && y.upper() <= lower_; }
   [[nodiscard]] bool has_any() const { return best_.has_value(); }
   [[nodiscard]] Ball value() const { return Ball::hull(lower_, best_->upper()); }
@@ -24,16 +28,6 @@ class Largest {
   std::optional<Ball> best_;  ///< the one with the largest upper bound
   Ball lower_;                ///< the largest lower bound
 };
-
-/// Adds the largest value between two instants between which the acceleration is negative: where the flight turns
-/// round, or at one of them.
-void add_turn(const Flow::Flight& flight, const Margin& x, const Ball& from, const Ball& to, Largest& largest) {
-  if (const auto turn = turn_of(flight, x, Ball::hull(from, to))) {
-    largest.add(Piece(flight, turn->lower(), turn->upper()).range(x, 0));
-    return;
-  }
-  for (const Ball& end : {from, to}) largest.add(x.of(flight.at(end).x, Ball(0)));
-}
 
 /// Looks into the parts of a stretch, that with the largest upper bound first.
 void search(const Stretch& stretch, const Margin& x, Largest& largest) {
@@ -48,22 +42,34 @@ void search(const Stretch& stretch, const Margin& x, Largest& largest) {
     const Ball range = Piece(stretch.flight, from, to).range(x, 0);
     if (!largest.exceeds(range)) parts.push({from, to, range, depth});
   };
-  add(Ball(0), stretch.length.upper(), 0);
+  // the end of the stretch is only known as a ball, and what lies beyond it bounds the values before it at most
+  const Ball& length = stretch.length;
+  const auto value_at = [&](const Ball& time) {
+    return x.of(stretch.flight.at(time < length ? time : length).x, Ball(0));
+  };
+  const auto add_range = [&](const Ball& range, const Ball& to) {
+    if (to < length)
+      largest.add(range);
+    else
+      largest.add_bound(range);
+  };
+  add(Ball(0), length.upper(), 0);
   while (!parts.empty()) {
     require_time();
     const Part part = parts.top();
     parts.pop();
     if (largest.exceeds(part.range)) return;
-    if (--parts_left < 0) return largest.add(part.range);
+    if (--parts_left < 0) return add_range(part.range, part.to);
     const Piece piece(stretch.flight, part.from, part.to);
     const Ball rate = piece.range(x, 1);
     if (rate.is_positive() || rate.is_negative()) {
-      const Ball end = rate.is_positive() ? part.to : part.from;  // the end of the stretch is only known as a ball
-      largest.add(x.of(stretch.flight.at(end < stretch.length ? end : stretch.length).x, Ball(0)));
-    } else if (piece.range(x, 2).is_negative()) {
-      add_turn(stretch.flight, x, part.from, part.to, largest);
+      largest.add(value_at(rate.is_positive() ? part.to : part.from));
+    } else if (piece.range(x, 2).is_negative()) {  // it is largest where it turns round, or at one of the ends
+      const auto turn = turn_of(stretch.flight, x, Ball::hull(part.from, part.to));
+      if (turn) add_range(Piece(stretch.flight, turn->lower(), turn->upper()).range(x, 0), turn->upper());
+      largest.add(value_at(part.from)), largest.add(value_at(part.to));
     } else if (part.depth > bits) {
-      largest.add(part.range);
+      add_range(part.range, part.to);
     } else {
       const Ball middle = ((part.from + part.to) / Ball(2)).middle();
       add(part.from, middle, part.depth + 1), add(middle, part.to, part.depth + 1);

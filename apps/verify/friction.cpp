@@ -88,7 +88,7 @@ Event Motion::stay(const Ball& end) {
     const bool rises = (scene_.f * Ball(way)).is_positive();
     const Ball theta = rises ? asin(sine) : Ball::pi() - asin(sine), cosine = sin_cos(theta).second;
     const slong turns = ((scene_.nu * time + scene_.phase - theta) / (Ball(2) * Ball::pi())).floor() + 1;
-    const Ball whole = Ball(2.0 * static_cast<double>(turns)) * Ball::pi();
+    const Ball whole = Ball(turns) * Ball(2) * Ball::pi();
     return Release{way, (theta + whole - scene_.phase) / scene_.nu, acting.k / (scene_.f * scene_.nu * cosine)};
   };
   const auto up = release(1, hull.x, hull.y), down = release(-1, hull.x, hull.y);

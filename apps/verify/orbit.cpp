@@ -5,7 +5,7 @@
 
 namespace verify {
 
-Ball length_of(const Scene& scene, long periods) { return Ball(static_cast<double>(periods)) * scene.period(); }
+Ball length_of(const Scene& scene, long periods) { return Ball(periods) * scene.period(); }
 
 namespace {
 

@@ -15,7 +15,7 @@ Number phase_of_release(const BasicScene<Number>& scene, Side side) {
 }
 template <class Number>
 Number time_of_phase(const BasicScene<Number>& scene, const Number& theta, slong turns) {
-  return (theta + Number(Ball(2.0 * static_cast<double>(turns)) * Ball::pi()) - scene.phase) / scene.nu;
+  return (theta + Number(Ball(turns) * Ball(2) * Ball::pi()) - scene.phase) / scene.nu;
 }
 
 }  // namespace
@@ -89,7 +89,7 @@ Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) co
 Event Motion::finish_chatter(const ChatterAim& aim) {
   const Side side = side_;
   const Ball begin_time = state_of(set_.hull()).time;
-  if (mode_ != Mode::free || vanishing_ == 0) return next(aim.end);  // it begins with an impact
+  if (mode_ != Mode::free || vanishing_ != 1) return next(aim.end);  // it begins with an impact
   bool rebounds_now = true;                                          // else it turns back at its peak, by friction
   for (int impacts = 0; impacts < 4000; ++impacts) {
     const State state = state_of(set_.hull());

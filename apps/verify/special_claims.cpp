@@ -23,6 +23,8 @@ Ball along(const Place& direction, const Event& event) {
 
 /// The derivative of the largest impact speed along the curve.
 Ball growth_of_speed(const Curve::Passage& passage, const Place& direction) {
+  const auto is_chatter = [](const Event& event) { return event.kind == Kind::chatter; };
+  if (std::ranges::any_of(passage.events, is_chatter)) throw Undecided("how fast the impacts within a chatter are");
   const Event* fastest = nullptr;
   for (const Event& event : passage.events)
     if (is_contact(event) && (fastest == nullptr || abs(event.v).near() > abs(fastest->v).near())) fastest = &event;
@@ -119,7 +121,7 @@ class Exclusion {
 
 /// The claimed periods, for all values of the parameter at some places.
 Ball length_at(const Certificate& certificate, const Place& at) {
-  return Ball(static_cast<double>(certificate.periods)) * certificate.moving_scene(at.p).period().value;
+  return Ball(certificate.periods) * certificate.moving_scene(at.p).period().value;
 }
 
 /// All events of the claimed periods of motion at some places of the curve. Of motion that is its own mirror image half

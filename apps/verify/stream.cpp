@@ -74,7 +74,11 @@ class Lines {
     if (c == end) return false;
     for (; c != end && c != '\n'; c = source_.sbumpc())
       if (++length <= longest_line) line.text += static_cast<char>(c);
-    if (length <= longest_line) return true;
+    if (length <= longest_line) {
+      if (line.text.find('\0') != std::string::npos)
+        line.malformed = "the line has a byte 0; leave it out", line.text = {};
+      return true;
+    }
     line.malformed = "the line has " + std::to_string(length) + " bytes; write a certificate in " +
                      std::to_string(longest_line) + " at most";
     line.text = {};

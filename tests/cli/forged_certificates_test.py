@@ -1,4 +1,4 @@
-"""False certificates that clatter-verify of commit ca3ec2f proved are refuted, for the reason why they are false.
+"""False certificates that clatter-verify once proved are refuted, for the reason why they are false.
 
 forged_certificates.jsonl holds them, and what is true of the same motion as a control.
 
@@ -28,7 +28,13 @@ REASONS = {  # what is said of each, None: it is true, and proved
     "one stick": None,
     "one stick, and another end": r"end, x: claimed 0 to 0, found \[0.2999999",
     "a rest twice": "event 2, rest at the upper stop: claimed before the end of event 1",
+    "a rest of 1e16 turns that lasts too long": r"event 1, rest at the upper stop, until: .*, found \[62831853071795887\.2",
+    "a chatter that hides all impacts": r"event 1, chatter at the upper stop: claimed, found impact at the upper stop",
+    "a motion that ends before its release": "end: claimed before the stop releases the mass",
+    "x_min beyond the end of a long motion": r"x_min: claimed -0\.9998\d* to 1e-08, found \[-0\.99950099362",
+    "the fastest impact, beside a chatter that hides a faster one": "how fast the impacts within a chatter are",
 }
+UNDECIDED = {"the fastest impact, beside a chatter that hides a faster one"}
 
 
 def forged():
@@ -44,9 +50,10 @@ class ForgedCertificates(unittest.TestCase):
         for number, name in enumerate(names, 1):
             with self.subTest(name):
                 claim = found.get(number, {"verdict": "proved", "remarks": []})
-                self.assertEqual(claim["verdict"], "refuted" if REASONS[name] else "proved")
+                verdict = "undecided" if name in UNDECIDED else "refuted" if REASONS[name] else "proved"
+                self.assertEqual(claim["verdict"], verdict)
                 if REASONS[name]:
-                    self.assertRegex("\n".join(claim["remarks"]), f"(?m)^refuted: {REASONS[name]}")
+                    self.assertRegex("\n".join(claim["remarks"]), f"(?m)^{verdict}: {REASONS[name]}")
 
     def test_what_is_held_to_the_end_begins_nothing_however_wide_the_errors(self):
         """Times and errors that don't contradict each other leave the found list alone to refute it."""

@@ -366,6 +366,11 @@ class Verify(CommandLine):
         )
         self.assertIn("1 proved", result.stdout)
 
+    def test_a_byte_0_hides_nothing_behind_it(self):
+        result = self.verify("-", text=json.dumps(RIGHT) + '\0, "simmetric": true}')
+        self.assertEqual((result.returncode, result.stdout), (2, "0 proved, 0 refuted, 0 undecided\n"))
+        self.assertEqual(result.stderr, "stdin:1: the line has a byte 0; leave it out\n")
+
     def test_members_for_people_are_named(self):
         line = json.dumps({**RIGHT, "name": "a", "at": {"nu": 7}, "machine": {"mass": [1]}, "branch": 2})
         result = self.verify("-", text=line)
