@@ -58,7 +58,15 @@ bool Cycle::differs(const std::vector<Event>& events, std::size_t shift, const B
   return false;
 }
 
+/// One press, stick or rest from the beginning to the end shows nothing of a smaller period.
+bool Cycle::is_held_throughout() const {
+  if (events_.size() != 1) return false;
+  const Event& only = events_.front();
+  return (holds(only.kind) || only.kind == Kind::stick) && !(only.until - only.time < period_);
+}
+
 bool Cycle::differs_after(std::size_t parts) const {
+  if (is_held_throughout()) return false;
   const std::vector<Event> events = without_rebounds();
   return events.size() % parts != 0 ||
          differs(events, events.size() / parts, period_ / Ball(static_cast<int>(parts)), false);

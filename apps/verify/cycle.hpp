@@ -30,6 +30,7 @@ class Cycle {
 
  private:
   void begin_after_rest();
+  [[nodiscard]] bool is_held_throughout() const;
   [[nodiscard]] std::vector<Event> without_rebounds() const;
   [[nodiscard]] bool differs(const std::vector<Event>& events, std::size_t shift, const Ball& later,
                              bool mirrored) const;

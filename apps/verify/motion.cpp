@@ -34,7 +34,6 @@ Motion::Motion(const Scene& scene, const Family& family, const Start& start)
       flows_(flows_of(scene)),
       moving_flows_(flows_of(family.scene)),
       start_time_(start.time) {
-  if (scene.is_rough()) throw Undecided("special points under dry friction");
   begin_at(start, {Ball(0), Ball(0)});
 }
 

@@ -89,8 +89,8 @@ Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) co
 Event Motion::finish_chatter(const ChatterAim& aim) {
   const Side side = side_;
   const Ball begin_time = state_of(set_.hull()).time;
-  if (mode_ != Mode::free || vanishing_ != 1) return next(aim.end);  // it begins with an impact
-  bool rebounds_now = true;                                          // else it turns back at its peak, by friction
+  if (mode_ != Mode::free || !on_surface_ || vanishing_ != 1) return next(aim.end);  // it begins with an impact
+  bool rebounds_now = true;  // else it turns back at its peak, by friction
   for (int impacts = 0; impacts < 4000; ++impacts) {
     const State state = state_of(set_.hull());
     std::optional<Rebounds> left;

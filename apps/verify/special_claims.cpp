@@ -217,6 +217,7 @@ void compare_place(const Certificate& certificate, const Place& place, Report& r
 }  // namespace
 
 void check_special(const Certificate& certificate, Report& report) {
+  if (certificate.scene_in_balls().is_rough()) throw Undecided("special points under dry friction");
   require_possible_kind(certificate);
   require_scene_at_parameter(certificate);
   const SpecialKind kind = certificate.special->kind;
