@@ -28,7 +28,7 @@ REASONS = {  # what is said of each, None: it is true, and proved
     "one stick": None,
     "one stick, and another end": r"end, x: claimed 0 to 0, found \[0.2999999",
     "a rest twice": "event 2, rest at the upper stop: claimed before the end of event 1",
-    "a rest of 1e16 turns that lasts too long": r"event 1, rest at the upper stop, until: .*, found \[62831853071795887\.2",
+    "a rest of 1e16 turns that lasts too long": r"event 1, rest at the upper stop, until: .* \[62831853071795887\.2",
     "a chatter that hides all impacts": r"event 1, chatter at the upper stop: claimed, found impact at the upper stop",
     "a motion that ends before its release": "end: claimed before the stop releases the mass",
     "x_min beyond the end of a long motion": r"x_min: claimed -0\.9998\d* to 1e-08, found \[-0\.99950099362",
