@@ -181,8 +181,7 @@ class EventDriven : public LoosePhases<Method, N, E> {
       state.x = contact.motion.x, state.v = contact.motion.v, state.offset = contact.motion.offset;
       if (contact.side == Side::none && contact.elapsed == horizon) state.phase_turns = end;
       if (contact.side == Side::none) continue;
-      state.x = stop.position;  // under friction an ulp off
-      reverse(state, stop);
+      state.x = stop.position, reverse(state, stop);  // under friction x was an ulp off
       if (state.v == 0) state.chatters = false;
     }
     this->show_chatter(begin, stop, Number(state.phase_turns - begin.phase_turns), state.v, origin, observer);
