@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
+#include "branches/branch_dataset.hpp"
 #include "branches/curve.hpp"
 #include "branches/measures/measures.hpp"
 #include "certificates/certified_branch.hpp"
 #include "certificates/sample.hpp"
 #include "command_line.hpp"
+#include "file_points.hpp"
 #include "outputs/output_summary.hpp"
+#include "reproduced.hpp"
 #include "storage/input_file.hpp"
 
 namespace clatter::app {
@@ -40,6 +44,14 @@ std::vector<branches::SpecialPoint> specials_of(const branches::Branches& found,
   return specials;
 }
 
+/// The length of a dimension in a file, 0 if it has none of this name.
+std::size_t length_of(const results::FileSummary& summary, std::string_view dimension) {
+  for (const auto& entry : summary.variables)
+    for (const results::NamedLength& own : entry.dimensions)
+      if (own.name == dimension) return own.length;
+  return 0;
+}
+
 /// Whether a run from the start of an orbit comes back to it, since it doesn't stretch rounding much: if it doesn't,
 /// the orbit is no motion.
 bool must_return(const branches::BranchPoint& point) {
@@ -54,8 +66,6 @@ CertifiedBranches::CertifiedBranches(const std::string& path) {
   if (!config.branch)
     storage::refuse_reading(path, "has no [branch] in its configuration", "follow its configuration again");
   sweep_ = config.sweep, settings_ = *config.branch, start_.emplace(sweep_.problem);
-  const std::string name(settings_.along.key());
-  results_ = results::read_variables(path, {name, "x", "v", "special_" + name, "special_x", "special_v"});
   try {
     found_ =
         settings_.across ? branches::follow_curves(*start_, settings_) : branches::follow_branches(*start_, settings_);
@@ -63,22 +73,23 @@ CertifiedBranches::CertifiedBranches(const std::string& path) {
     storage::refuse_reading(path, std::string("can't be followed anew: ") + error.what(),
                             "follow its configuration again");
   }
+  compare_with(path, summary);
 }
 
-bool CertifiedBranches::is_reproduced(const std::string& prefix, std::size_t number,
-                                      const branches::BranchPoint& point) const {
-  constexpr double same = 1e-9;
-  const PhasePoint state = branches::state_at_phase_zero(point.scene, point.orbit);
-  const double velocity = factor_of(start_->units, Quantity::velocity);
-  const double parameter = value_of(point.scene, settings_.along);
-  const double size = std::abs(velocity * state.v) + std::abs(state.x) + std::abs(parameter);
-  for (const auto& [name, value] : {std::pair<std::string, double>{settings_.along.key(), parameter},
-                                    {"x", factor_of(start_->units, Quantity::length) * state.x},
-                                    {"v", velocity * state.v}}) {
-    const auto* const told = results::values_of<double>(results_, prefix + name);
-    if (told == nullptr || number >= told->size() || !(std::abs((*told)[number] - value) <= same * size)) return false;
-  }
-  return true;
+/// The rows of points, and those of special points.
+void CertifiedBranches::compare_with(const std::string& path, const results::FileSummary& summary) {
+  results::Dataset dataset = branches::branch_dataset(found_, settings_, start_->units, has_loose_mass(start_->loose));
+  std::vector<std::string> names;
+  for (const results::Variable& variable : dataset.variables)
+    if (find_variable(summary, variable.name) != nullptr) names.push_back(variable.name);
+  const results::Dataset stored = results::read_variables(path, names);
+  const auto rows = [&](std::string_view dimension, std::size_t followed) {
+    const std::size_t length = length_of(summary, dimension);
+    const std::vector<std::string> along{std::string(dimension)};
+    return Compared{PointRows(dataset, along, followed), PointRows(stored, along, length)};
+  };
+  points_ = rows(branch_points, found_.points.size());
+  special_ = rows(special_points, found_.special.size());
 }
 
 bool CertifiedBranches::is_graze(const branches::BranchPoint& point) const {
@@ -104,29 +115,30 @@ certificates::CertifiedPlace CertifiedBranches::place_of(std::size_t number, con
 certificates::Tally CertifiedBranches::certify(const std::optional<std::size_t>& sample,
                                                const std::function<void(std::string_view line)>& take) const {
   certificates::Tally tally;
-  const auto add = [&](const certificates::CertifiedPoint& found, bool is_reproduced, std::size_t number,
+  const auto add = [&](certificates::CertifiedPoint found, const Compared& compared, std::size_t number,
                        const branches::BranchPoint& at) {
-    if (!is_reproduced) return tally.add_not_reproduced();
+    const auto differing = difference(compared.followed, number, compared.stored, number, found.certificate);
+    if (differing) found.differs = *differing;
     tally.add(found);
-    if (found.certificate) take(certificates::certificate_text(*found.certificate, place_of(number, at)));
+    if (found.certificate && found.differs.empty())
+      take(certificates::certificate_text(*found.certificate, place_of(number, at)));
   };
   const auto curve = settings_.across ? specials_of(found_, settings_) : std::vector<branches::SpecialPoint>{};
   for (const std::size_t i : chosen(found_.points.size(), sample)) {
     const branches::BranchPoint& point = found_.points[i];
     if (!settings_.across && is_graze(point))
-      add({.status = steady::Status::grazing, .without = certificates::Without::graze}, true, i, point);
+      add({.status = steady::Status::grazing, .without = certificates::Without::graze}, *points_, i, point);
     else if (settings_.across)
-      add(certificates::certified(curve[i], settings_.along, *start_), is_reproduced("", i, point), i, point);
+      add(certificates::certified(curve[i], settings_.along, *start_), *points_, i, point);
     else {
-      const certificates::CertifiedPoint found = certificates::certified(point, *start_);
-      const bool returns = found.without != certificates::Without::rounding || !must_return(point);
-      add(found, returns && is_reproduced("", i, point), i, point);
+      certificates::CertifiedPoint found = certificates::certified(point, *start_);
+      if (found.without == certificates::Without::rounding && must_return(point)) found.differs = "x";
+      add(std::move(found), *points_, i, point);
     }
   }
   for (const std::size_t i : chosen(found_.special.size(), sample)) {
     const branches::SpecialPoint& special = found_.special[i];
-    add(certificates::certified(special, settings_.along, *start_), is_reproduced("special_", i, special.at), i,
-        special.at);
+    add(certificates::certified(special, settings_.along, *start_), *special_, i, special.at);
   }
   return tally;
 }

@@ -10,7 +10,8 @@
 #include "branches/settings.hpp"
 #include "certificates/certificate_text.hpp"
 #include "certificates/tally.hpp"
-#include "results/dataset.hpp"
+#include "point_rows.hpp"
+#include "results/dataset_file.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::app {
@@ -26,9 +27,11 @@ class CertifiedBranches {
                                             const std::function<void(std::string_view line)>& take) const;
 
  private:
-  /// Whether a point is that of the file; `prefix`: of the names of its variables.
-  [[nodiscard]] bool is_reproduced(const std::string& prefix, std::size_t number,
-                                   const branches::BranchPoint& point) const;
+  /// Points that were followed anew, and those of the file.
+  struct Compared {
+    PointRows followed, stored;
+  };
+  void compare_with(const std::string& path, const results::FileSummary& summary);
   /// Whether a branch ends in a graze there, which is claimed as a special point.
   [[nodiscard]] bool is_graze(const branches::BranchPoint& point) const;
   [[nodiscard]] certificates::CertifiedPlace place_of(std::size_t number, const branches::BranchPoint& point) const;
@@ -37,7 +40,7 @@ class CertifiedBranches {
   branches::BranchSettings settings_;
   std::optional<branches::StartProblem> start_{};
   branches::Branches found_;
-  results::Dataset results_{};
+  std::optional<Compared> points_{}, special_{};
 };
 
 }  // namespace clatter::app

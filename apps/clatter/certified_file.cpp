@@ -1,27 +1,22 @@
 #include "certified_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <optional>
-#include <string>
-#include <variant>
+#include <utility>
 
 #include "certificates/certificate_text.hpp"
 #include "command_line.hpp"
 #include "csv_table.hpp"
 #include "outputs/output_summary.hpp"
-#include "results/dataset_file.hpp"
+#include "reproduced.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
-#include "sweep/chains.hpp"
+#include "sweep/mirror_images.hpp"
+#include "sweep/result_dataset.hpp"
+#include "sweep/run.hpp"
 
 namespace clatter::app {
 namespace {
-
-bool has(const results::FileSummary& summary, std::string_view name) {
-  return std::ranges::find(summary.variables, name, &results::FileSummary::Entry::name) != summary.variables.end();
-}
 
 /// The values of the axes of a point, in the user's units, and its machine.
 certificates::CertifiedPlace place_of(const sweep::Sweep& sweep, std::size_t point) {
@@ -42,65 +37,96 @@ void require_exact(const sweep::Sweep& sweep, const std::string& path) {
                    "integrator.method=exact");
 }
 
-}  // namespace
-
-CertifiedFile::CertifiedFile(const std::string& path, const std::vector<Place>& where) {
-  const results::FileSummary summary = outputs::read_summary(path);
-  TableChoice choice{.only = {"status"}, .where = where};
-  for (const char* const compared : {"period_ratio", "impact_word"})
-    if (has(summary, compared)) choice.only.emplace_back(compared);
-  const CsvTable table(summary, path, choice);
-  sweep_ = outputs::config_of_output(summary, path).sweep;
-  require_exact(sweep_, path);
-  results_ = results::read_variables(path, table.variables());
-  points_ = table.points(results_);
-  const auto* const status = results::values_of<std::uint8_t>(results_, "status");
-  if (status == nullptr || status->size() != size(sweep_))
-    storage::refuse_reading(path, "is damaged: its points aren't those of its configuration",
-                            "run its configuration again");
+std::vector<std::string> names_of(const std::vector<results::NamedLength>& dimensions) {
+  std::vector<std::string> names;
+  for (const results::NamedLength& dimension : dimensions) names.push_back(dimension.name);
+  return names;
 }
 
-/// Whether a point has the status, the period and the word of the file. A certificate looks for grazes, a run does only
-/// if derivatives are asked for.
-bool CertifiedFile::is_reproduced(std::size_t point, const certificates::CertifiedPoint& found) const {
-  using steady::Status;
-  const observables::Observe& observe = sweep_.problem.observe;
-  const bool tells_grazes = observe.stability || !observe.sensitivity.empty();
-  const auto told = static_cast<Status>((*results::values_of<std::uint8_t>(results_, "status"))[point]);
-  const bool is_untold = found.status == Status::grazing && told == Status::periodic && !tells_grazes;
-  if (told != found.status && !is_untold) return false;
-  const auto* const periods = results::values_of<double>(results_, "period_ratio");
-  if (periods != nullptr && (*periods)[point] > 0 && (*periods)[point] != found.periods) return false;
-  const auto* const words = results::values_of<std::string>(results_, "impact_word");
-  return words == nullptr || observe.word_sticks || (*words)[point].empty() || (*words)[point] == found.word;
+/// Whether a point's result depends on which others are run: motions are numbered from one to the next, and one of two
+/// mirror images is the other's.
+bool depends_on_others(const sweep::Sweep& sweep) {
+  return sweep.problem.observe.attractor || sweep::MirrorImages(sweep).exist();
+}
+
+}  // namespace
+
+CertifiedFile::CertifiedFile(const std::string& path, const std::vector<Place>& where)
+    : path_(path), summary_(outputs::read_summary(path)) {
+  const CsvTable table(summary_, path, {.only = {"status"}, .where = where});
+  sweep_ = outputs::config_of_output(summary_, path).sweep;
+  require_exact(sweep_, path);
+  const results::Dataset status = results::read_variables(path, table.variables());
+  points_ = table.points(status);
+  if (points_of(dimensions_of_points(summary_, path)) != size(sweep_))
+    storage::refuse_reading(path, "is damaged: its points aren't those of its configuration",
+                            "run its configuration again");
+  for (const auto& [name, value] : summary_.attributes) {
+    if (name != sweep::instruction_set_attribute) continue;
+    if (const auto arch = lanes::instruction_set_of_bits(value))
+      arch_ = *arch;
+    else
+      lacking_ = value;
+  }
+}
+
+CertifiedFile::Anew CertifiedFile::run(const sweep::Sweep& sweep, int threads) const {
+  std::vector<certificates::KnownResult> known(size(sweep));
+  const auto see = [&](std::size_t point, const point::PointResult& result) {
+    known[point] = certificates::KnownResult(problem_at(sweep, point), result);
+  };
+  sweep::RunResult result = sweep::run(sweep, {.threads = threads, .arch = arch_, .see = see});
+  const auto status = std::ranges::find(result.dataset.variables, "status", &results::Variable::name);
+  std::vector<std::string> dimensions = status->dimensions;
+  return {PointRows(std::move(result.dataset), std::move(dimensions), known.size()), std::move(known)};
+}
+
+/// The results of some points in the file that a run has, too.
+PointRows CertifiedFile::stored(const std::vector<std::size_t>& points) const {
+  std::vector<std::string> names;
+  for (const results::Variable& variable : sweep::description(sweep_).variables)
+    if (find_variable(summary_, variable.name) != nullptr) names.push_back(variable.name);
+  const auto read = [this](const std::vector<std::string>& some) { return results::read_variables(path_, some); };
+  return PointRows::chosen(names, names_of(dimensions_of_points(summary_, path_)), size(sweep_), points, read);
 }
 
 certificates::Tally CertifiedFile::certify(const std::vector<std::size_t>& points,
                                            const std::function<void(std::string_view line)>& take) const {
-  std::vector<bool> is_chosen(size(sweep_), false);
-  for (const std::size_t point : points) is_chosen[point] = true;
+  const PointRows file = stored(points);
+  const auto whole = depends_on_others(sweep_) ? std::optional(run(sweep_, 0)) : std::nullopt;
   certificates::Tally tally;
   point::ThreadScratch scratch;
   const sweep::Chains chains(sweep_);
+  const auto certify_point = [&](const point::Problem& problem, std::size_t chosen, const Anew& anew, std::size_t ran) {
+    certificates::CertifiedPoint found = certificates::certified(problem, anew.known[ran], scratch);
+    const std::string_view only = found.certificate ? "" : "status";  // of other results nothing is claimed
+    if (found.differs.empty())
+      found.differs = difference(anew.rows, ran, file, chosen, found.certificate, only).value_or("");
+    tally.add(found);
+    if (found.certificate && found.differs.empty())
+      take(certificates::certificate_text(*found.certificate, place_of(sweep_, points[chosen])));
+  };
   for (std::size_t chain = 0; chain < chains.count; ++chain) {
+    const auto chosen_at = [&](std::size_t i) { return std::ranges::lower_bound(points, chains.point(chain, i)); };
+    const auto is_chosen = [&](std::size_t i) {
+      return chosen_at(i) != points.end() && *chosen_at(i) == chains.point(chain, i);
+    };
     std::size_t length = chains.length;  // up to the last point that is chosen
-    while (length > 0 && !is_chosen[chains.point(chain, length - 1)]) --length;
+    while (length > 0 && !is_chosen(length - 1)) --length;
+    if (length == 0) continue;
+    const sweep::Sweep alone = chain_alone(sweep_, chains, chain);
+    const auto of_chain = whole ? std::nullopt : std::optional(run(alone, 1));
+    const Anew& anew = whole ? *whole : *of_chain;
     std::optional<point::End> end;
     Units units_of_end{};
     for (std::size_t i = 0; i < length; ++i) {
-      const std::size_t index = chains.point(chain, i);
-      point::Problem problem = problem_at(sweep_, index);
+      const std::size_t ran = whole ? chains.point(chain, i) : sweep::Chains(alone).point(0, i);
+      point::Problem problem = problem_at(sweep_, chains.point(chain, i));
       if (sweep_.follow) sweep::start_from(problem, end, units_of_end);
-      const certificates::CertifiedPoint found = certificates::certified(problem, scratch);
-      end = failed(found.status) ? std::nullopt : std::optional(sweep::end_for_next(problem, found.end));
+      if (is_chosen(i)) certify_point(problem, static_cast<std::size_t>(chosen_at(i) - points.begin()), anew, ran);
+      end = failed(anew.known[ran].status) ? std::nullopt
+                                           : std::optional(sweep::end_for_next(problem, anew.known[ran].end));
       units_of_end = problem.units;
-      if (!is_chosen[index]) continue;
-      if (!is_reproduced(index, found)) {
-        tally.add_not_reproduced();
-        continue;
-      }
-      tally.add(found);
-      if (found.certificate) take(certificates::certificate_text(*found.certificate, place_of(sweep_, index)));
     }
   }
   return tally;

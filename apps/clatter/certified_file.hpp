@@ -2,34 +2,50 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "certificates/tally.hpp"
 #include "file_points.hpp"
-#include "results/dataset.hpp"
+#include "lanes/instruction_set.hpp"
+#include "point_rows.hpp"
+#include "results/dataset_file.hpp"
+#include "sweep/chains.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::app {
 
-/// An output of `clatter run` whose points are run anew and certified.
+/// An output of `clatter run` whose points are run anew, compared with it, and certified.
 class CertifiedFile {
  public:
-  /// Reads the configuration, and the results that are compared. Throws UsageError, IoError, ChoiceError.
+  /// Reads the configuration, and which points are chosen. Throws UsageError, IoError, ChoiceError.
   CertifiedFile(const std::string& path, const std::vector<Place>& where);
 
   [[nodiscard]] const std::vector<std::size_t>& points() const { return points_; }  ///< those chosen, ascending
+  /// The instruction set of the file, if this machine lacks it, so that motion may settle otherwise; empty: it has it.
+  [[nodiscard]] const std::string& lacking() const { return lacking_; }
 
-  /// Passes on the certificates of some points, one a line; along `follow` in the order of chains.
+  /// Passes on the certificates of some points, ascending, one a line; along `follow` in the order of chains. Throws
+  /// IoError.
   [[nodiscard]] certificates::Tally certify(const std::vector<std::size_t>& points,
                                             const std::function<void(std::string_view line)>& take) const;
 
  private:
-  [[nodiscard]] bool is_reproduced(std::size_t point, const certificates::CertifiedPoint& found) const;
+  /// Points that were run anew, as the run of the file ran them.
+  struct Anew {
+    PointRows rows;
+    std::vector<certificates::KnownResult> known;  ///< by the index in `rows`
+  };
+  [[nodiscard]] Anew run(const sweep::Sweep& sweep, int threads) const;
+  [[nodiscard]] PointRows stored(const std::vector<std::size_t>& points) const;
 
-  sweep::Sweep sweep_;
-  results::Dataset results_{};  ///< status and, if the file has them, period_ratio and impact_word
+  std::string path_;
+  results::FileSummary summary_;
+  sweep::Sweep sweep_{};
+  lanes::InstructionSet arch_ = lanes::widest_instruction_set();  ///< of the file, if this machine has it
+  std::string lacking_{};
   std::vector<std::size_t> points_{};
 };
 

@@ -34,20 +34,25 @@ std::optional<std::size_t> sample_of(const Arguments& arguments) {
   return count;
 }
 
+/// What became of the points of an output, and the instruction set that this machine lacks of it.
+struct Outcome {
+  certificates::Tally tally;
+  std::string lacking{};
+};
+
 /// Certifies the points of an output of `clatter run` or `clatter branch`.
-certificates::Tally tally_of(const std::string& path, const std::vector<Place>& places,
-                             const std::optional<std::size_t>& sample,
-                             const std::function<void(std::string_view line)>& take) {
+Outcome outcome_of(const std::string& path, const std::vector<Place>& places, const std::optional<std::size_t>& sample,
+                   const std::function<void(std::string_view line)>& take) {
   const auto origin = results::origin_of(path);
   if (origin && origin->command == "accuracy")
     storage::refuse_reading(path, "holds what accuracy costs, not motions",
                             "name an output of `clatter run` or `clatter branch`");
   if (origin && origin->command == "branch") {
     if (!places.empty()) throw UsageError("--where chooses points of a sweep, and a branch has no axis; use --sample");
-    return CertifiedBranches(path).certify(sample, take);
+    return {CertifiedBranches(path).certify(sample, take)};
   }
   const CertifiedFile file(path, places);
-  return file.certify(sample ? certificates::spread(file.points(), *sample) : file.points(), take);
+  return {file.certify(sample ? certificates::spread(file.points(), *sample) : file.points(), take), file.lacking()};
 }
 
 int certify(const Arguments& arguments) try {
@@ -66,11 +71,14 @@ int certify(const Arguments& arguments) try {
     if (count++ == 0) write(certificates::list_begin());
     write(line);
   };
-  const certificates::Tally tally = tally_of(arguments.operands[0], places, sample, take);
+  const auto [tally, lacking] = outcome_of(arguments.operands[0], places, sample, take);
   if (count > 0) write(certificates::list_end(count));
   if (output) storage::write_atomically(*output, text);
-  std::cerr << tally.text() << '\n';
-  return tally.not_reproduced() > 0 ? points_failed : done;
+  std::cerr << tally.text();
+  if (!lacking.empty() && !tally.all_reproduced())
+    std::cerr << "; the file was computed with " << storage::excerpt(lacking) << ", which this machine lacks";
+  std::cerr << '\n';
+  return tally.all_reproduced() ? done : points_failed;
 } catch (const ChoiceError& error) {
   throw UsageError(error.what());
 }

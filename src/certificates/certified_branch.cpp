@@ -146,9 +146,7 @@ CertifiedPoint certified(const BranchPoint& point, const StartProblem& start) {
 }
 
 CertifiedPoint certified(const SpecialPoint& special, Parameter along, const StartProblem& start) {
-  CertifiedPoint found{.status = steady::Status::periodic,
-                       .periods = special.at.orbit.period_ratio(),
-                       .without = Without::no_such_claim};
+  CertifiedPoint found{.status = steady::Status::periodic, .without = Without::no_such_claim};
   const auto kind = claimed_kind(special);
   const auto graze = grazing(special);
   const FollowedScene& scene = special.at.scene;

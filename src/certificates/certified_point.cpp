@@ -152,15 +152,40 @@ void certify_periodic(const Problem& problem, const PointResult& result, Certifi
   keep_if_known(point, bounds);
 }
 
-/// A point by its result, without a certificate.
-CertifiedPoint run_anew(const PointResult& result) {
-  return {.status = result.status, .periods = result.observed_turns, .word = result.impact_word, .end = result.end};
+/// The frame of the extrema that a certificate states.
+Frame stated_frame(const Problem& problem) {
+  return has_loose_mass(problem.loose) ? Frame::absolute : Frame::relative;
+}
+
+/// The name of a result that was found otherwise by the run that a certificate is made of; empty: none.
+std::string difference(const KnownResult& known, const PointResult& stated) {
+  constexpr double same = 1e-9;
+  if (stated.status != known.status) return "status";
+  if (stated.observed_turns != known.periods) return "period_ratio";
+  if (!known.word.empty() && stated.impact_word != known.word) return "impact_word";
+  const double most = same * std::max(std::abs(stated.x_min), std::abs(stated.x_max));
+  if (std::abs(known.x_min - stated.x_min) > most) return "x_min";
+  return std::abs(known.x_max - stated.x_max) > most ? "x_max" : "";
+}
+
+/// The same problem from the end of a run on.
+Problem from_end(Problem problem, const point::End& end) {
+  problem.start = end;
+  if (has_loose_mass(problem.loose)) problem.loose.place = end.loose_place, problem.loose.velocity = end.loose_velocity;
+  return problem;
 }
 
 }  // namespace
 
+KnownResult::KnownResult(const Problem& problem, const PointResult& result)
+    : status(result.status), periods(result.observed_turns), end(result.end) {
+  if (!problem.observe.word_sticks) word = result.impact_word;
+  if (problem.observe.frame == stated_frame(problem) || !is_shaken(problem.shaking))
+    x_min = result.x_min, x_max = result.x_max;
+}
+
 CertifiedPoint certified_period(const Problem& problem, const PointResult& result) {
-  CertifiedPoint point = run_anew(result);
+  CertifiedPoint point{.status = result.status};
   if (problem.oscillator.forcing == 0)
     point.without = Without::force;
   else
@@ -168,13 +193,29 @@ CertifiedPoint certified_period(const Problem& problem, const PointResult& resul
   return point;
 }
 
-CertifiedPoint certified(const Problem& problem, point::ThreadScratch& scratch) {
-  const Problem plain = observed(problem);
+CertifiedPoint certified(const Problem& problem, const KnownResult& known, point::ThreadScratch& scratch) {
+  using steady::Status;
+  CertifiedPoint point{.status = known.status};
+  if (known.status == Status::grazing) point.without = Without::graze;
+  if (known.status != Status::periodic && known.status != Status::transient) return point;
+  const bool is_steady = known.status == Status::periodic;
+  if (is_steady && problem.oscillator.forcing == 0) {
+    point.without = Without::force;
+    return point;
+  }
+  const Problem plain = observed(is_steady ? from_end(problem, known.end) : problem);
   const PointResult result = point::run_point(plain, scratch);
-  if (result.status == steady::Status::periodic) return certified_period(plain, result);
-  CertifiedPoint point = run_anew(result);
-  if (result.status == steady::Status::transient) certify_transient(plain, result, point);
-  if (result.status == steady::Status::grazing) point.without = Without::graze;
+  if (is_steady && result.status == Status::grazing) {  // a run looks for grazes only if derivatives are asked for
+    point.without = Without::graze;
+  } else if (is_steady && result.status == Status::undecided) {
+    point.without = Without::rounding;
+  } else if (point.differs = difference(known, result); !point.differs.empty()) {
+    return point;
+  } else if (is_steady) {
+    return certified_period(plain, result);
+  } else {
+    certify_transient(plain, result, point);
+  }
   return point;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,21 +24,32 @@ enum class Without : std::uint8_t {
   no_such_claim,  ///< a special point of a kind, or of a motion, that the format has no claim of
 };
 
-/// A point that was run anew.
+/// A point with a certificate of its motion, or the reason why it has none.
 struct CertifiedPoint {
   steady::Status status = steady::Status::unresolved;
-  double periods = 0.0;  ///< of periodic motion, in those of the force
-  std::string word{};    ///< of periodic motion
-  point::End end{};      ///< from which the next point of a branch starts
   Without without = Without::status;
   std::optional<Certificate> certificate{};
+  std::string differs{};  ///< a result that isn't that of the file, or of the run that it claims; empty: none
+};
+
+/// The result of a run at a point, as far as a certificate states it, in computed units.
+struct KnownResult {
+  steady::Status status = steady::Status::unresolved;
+  double periods = 0.0;                                                    ///< forcing periods observed
+  std::string word{};                                                      ///< without sticks; empty: not observed
+  double x_min = std::numeric_limits<double>::quiet_NaN(), x_max = x_min;  ///< NaN: not observed
+  point::End end{};
+
+  KnownResult() = default;
+  KnownResult(const point::Problem& problem, const point::PointResult& result);
 };
 
 /// States what is claimed of a periodic motion that starts with `result.end`, from its period, extrema, multipliers,
 /// word and symmetry.
 [[nodiscard]] CertifiedPoint certified_period(const point::Problem& problem, const point::PointResult& result);
 
-/// Runs a point, and states what is claimed of its motion.
-[[nodiscard]] CertifiedPoint certified(const point::Problem& problem, point::ThreadScratch& scratch);
+/// States what is claimed of the motion at a point that a run has found, a periodic one from the end of the run on.
+[[nodiscard]] CertifiedPoint certified(const point::Problem& problem, const KnownResult& known,
+                                       point::ThreadScratch& scratch);
 
 }  // namespace clatter::certificates

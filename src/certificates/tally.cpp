@@ -48,7 +48,9 @@ std::string details(const std::map<std::string, std::size_t>& counts) {
 }  // namespace
 
 void Tally::add(const CertifiedPoint& point) {
-  if (point.certificate)
+  if (!point.differs.empty())
+    ++not_reproduced_[point.differs];
+  else if (point.certificate)
     ++certificates_[point.certificate->special ? point.certificate->special->kind : name_of(point.status)];
   else
     ++without_[reason_of(point)];
@@ -56,10 +58,11 @@ void Tally::add(const CertifiedPoint& point) {
 
 std::string Tally::text() const {
   const std::size_t certificates = sum_of(certificates_), without = sum_of(without_);
-  std::string text = counted(certificates + without + not_reproduced_, "point") + ": " +
+  const std::size_t not_reproduced = sum_of(not_reproduced_);
+  std::string text = counted(certificates + without + not_reproduced, "point") + ": " +
                      counted(certificates, "certificate") + details(certificates_);
   if (without > 0) text += ", " + std::to_string(without) + " without a claim" + details(without_);
-  if (not_reproduced_ > 0) text += ", " + std::to_string(not_reproduced_) + " not reproduced";
+  if (not_reproduced > 0) text += ", " + std::to_string(not_reproduced) + " not reproduced" + details(not_reproduced_);
   return text;
 }
 

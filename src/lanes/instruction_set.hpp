@@ -23,6 +23,12 @@ inline constexpr std::array<std::string_view, 4> instruction_set_names{"scalar",
   return std::nullopt;
 }
 
+/// The instruction sets whose lanes give the same bits as those of one: AVX2 and AVX-512 round alike.
+[[nodiscard]] constexpr std::string_view name_of_bits(InstructionSet arch) {
+  const bool is_fused = arch == InstructionSet::avx2 || arch == InstructionSet::avx512;
+  return is_fused ? "avx2 or avx512" : name_of(arch);
+}
+
 /// Whether this machine and its system have the instruction set. avx2 stands for AVX2 and FMA, avx512 for its parts F,
 /// DQ, CD, BW and VL: the compiler may use every part that the step functions are compiled for.
 [[nodiscard]] inline bool is_supported(InstructionSet arch) {
@@ -39,6 +45,15 @@ inline constexpr std::array<std::string_view, 4> instruction_set_names{"scalar",
   return is_supported(InstructionSet::avx512) ? InstructionSet::avx512
          : is_supported(InstructionSet::avx2) ? InstructionSet::avx2
                                               : InstructionSet::sse2;
+}
+
+/// The widest one that this machine has of those with such bits (`name_of_bits`); nothing: it has none of them.
+[[nodiscard]] inline std::optional<InstructionSet> instruction_set_of_bits(std::string_view name) {
+  std::optional<InstructionSet> widest;
+  for (std::size_t i = 0; i < instruction_set_names.size(); ++i)
+    if (const auto arch = static_cast<InstructionSet>(i); name_of_bits(arch) == name && is_supported(arch))
+      widest = arch;
+  return widest;
 }
 
 }  // namespace clatter::lanes

@@ -13,6 +13,7 @@
 #include "storage/utf8.hpp"
 #include "sweep/output_variables.hpp"
 #include "sweep/parallel.hpp"
+#include "sweep/run.hpp"
 #include "sweep/share.hpp"
 
 namespace clatter::outputs {
@@ -161,6 +162,7 @@ results::ShardReader& Merge::reader(std::size_t shard) {
 sweep::StatusTally Merge::write(const results::OutputPlace& place) try {
   const results::FileHead& head = shards_.config;
   sweep::Joined joined = sweep::joined(shards_.config.sweep, parts_, sweep::default_threads());
+  joined.dataset.attributes.emplace_back(sweep::instruction_set_attribute, shards_.headers.front().instruction_set);
   place.write_atomically(
       [&](storage::FileWriter& file) { results::write_file(file, std::move(joined.dataset), head); });
   return joined.statuses;

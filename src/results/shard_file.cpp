@@ -78,6 +78,7 @@ ShardHeader header_of(const Handle& file, const std::string& path) {
                      .compiler = text_attribute(file, "compiler"),
                      .config = text_attribute(file, "config"),
                      .config_sha256 = text_attribute(file, "config_sha256"),
+                     .instruction_set = text_attribute(file, "instruction_set"),
                      .rounding = text_attribute(file, "rounding"),
                      .values = values_in(file)};
   if (checked(H5Lexists(file, "impact_tau", H5P_DEFAULT)) > 0)
@@ -90,7 +91,7 @@ template <typename Pass, typename Header>
 void pass_all(Pass& pass, Header& header) {
   pass(header.shard.number), pass(header.shard.of), pass(header.impacts), pass(header.values);
   for (auto* const text : {&header.schema, &header.version, &header.git_commit, &header.compiler, &header.config,
-                           &header.config_sha256, &header.rounding})
+                           &header.config_sha256, &header.instruction_set, &header.rounding})
     pass(*text);
 }
 

@@ -18,7 +18,8 @@ struct ShardHeader {
   Shard shard;
   std::string schema, version, git_commit, compiler;
   std::string config, config_sha256;
-  std::string rounding;       ///< all that its last bits depend on (`rounding_fingerprint`)
+  std::string instruction_set{};  ///< of its lanes
+  std::string rounding;           ///< all that its last bits depend on (`rounding_fingerprint`)
   std::uint64_t impacts = 0;  ///< number in its log
   std::uint64_t values = 0;   ///< number in all variables
 };

@@ -42,6 +42,20 @@ struct Chains {
   }
 };
 
+/// The sweep of one chain alone: each dimension but the followed one has the chain's value.
+[[nodiscard]] inline Sweep chain_alone(const Sweep& sweep, const Chains& chains, std::size_t chain) {
+  Sweep alone = sweep;
+  std::size_t stride = size_one_way(sweep), rest = chains.point(chain, 0) % stride;
+  for (std::size_t d = 0; d < alone.dimensions.size(); ++d) {
+    stride /= length(sweep.dimensions[d]);
+    const std::size_t index = rest / stride;
+    rest %= stride;
+    if (d != sweep.follow)
+      for (Axis& axis : alone.dimensions[d]) axis.values = {axis.values[index]};
+  }
+  return alone;
+}
+
 /// Adds the motion of a shaken base to a start at its phase, times `sign`, if a loose mass makes the ground the frame
 /// in which the problem is computed.
 inline void add_base(Start& start, const point::Problem& problem, int sign) {

@@ -61,9 +61,7 @@ std::string rounding_fingerprint(const Sweep& sweep, lanes::InstructionSet arch)
   Digest digest;
   add_functions(digest);
   if (observables::Harmonics::from_samples(sweep.problem.observe)) add_transform(digest);
-  const bool fused =
-      arch == lanes::InstructionSet::avx2 || arch == lanes::InstructionSet::avx512;  // their lanes give the same bits
-  return std::string(fused ? "avx2 or avx512" : name_of(arch)).append(", functions ").append(digest.text());
+  return std::string(name_of_bits(arch)).append(", functions ").append(digest.text());
 }
 
 }  // namespace clatter::sweep

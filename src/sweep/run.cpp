@@ -27,6 +27,10 @@ bool runs_in_lanes(const Sweep& sweep, lanes::InstructionSet arch) {
          integration.shortcuts && !integration.all_effects;
 }
 
+std::string_view instruction_set_name(const Sweep& sweep, lanes::InstructionSet arch) {
+  return lanes::name_of_bits(runs_in_lanes(sweep, arch) ? arch : lanes::InstructionSet::scalar);
+}
+
 SweepRun::SweepRun(const Sweep& sweep, const std::optional<results::Shard>& shard,
                    std::shared_ptr<storage::Scratch> scratch)
     : sweep_(sweep),
@@ -94,6 +98,8 @@ RunResult SweepRun::result() {
   result_.points = share_.points();
   result_.statuses = store_.statuses();
   result_.dataset = store_.dataset();
+  const std::string bits(instruction_set_name(sweep_, result_.arch));
+  result_.dataset.attributes.emplace_back(instruction_set_attribute, bits);
   if (shard_) {
     result_.dataset.attributes.emplace_back("shard", text_of(*shard_));
     result_.dataset.attributes.emplace_back("rounding", rounding_fingerprint(sweep_, result_.arch));

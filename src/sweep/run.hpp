@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "lanes/instruction_set.hpp"
@@ -27,6 +28,8 @@ struct RunOptions {
   std::function<void(double done, std::size_t total)>
       progress{};  ///< called from one thread at a time, a few times a second and for every hundredth
   lanes::InstructionSet arch = lanes::widest_instruction_set();  ///< instruction set of the points that lanes can take
+  /// Sees the result of each point, by its local index (`Share`), in computed units; called by several threads at once.
+  std::function<void(std::size_t local_index, const point::PointResult& result)> see{};
 };
 
 /// The threads that a run with these options uses.
@@ -34,6 +37,13 @@ struct RunOptions {
 
 /// Whether a run takes those points of a sweep that lanes accept into lanes.
 [[nodiscard]] bool runs_in_lanes(const Sweep& sweep, lanes::InstructionSet arch);
+
+/// The root attribute of an output that names the instruction sets with the bits of its lanes (`lanes::name_of_bits`):
+/// a scene whose motion settles through a long chaos may settle otherwise with others.
+inline constexpr std::string_view instruction_set_attribute = "instruction_set";
+
+/// Its value for a run: "scalar", too, if no point of the sweep runs in lanes.
+[[nodiscard]] std::string_view instruction_set_name(const Sweep& sweep, lanes::InstructionSet arch);
 
 /// Work spent on the points with equal effects.
 struct WorkStats {

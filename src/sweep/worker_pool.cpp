@@ -48,6 +48,7 @@ WorkerPool::WorkerPool(const Sweep& sweep, const Share& share, const RunOptions&
                        ResultStore& store, ChainStates& states, std::size_t restored)
     : sweep_(sweep),
       share_(share),
+      see_(options.see),
       store_(store),
       states_(states),
       progress_(options, static_cast<std::size_t>(threads), share.points(), restored),
@@ -172,18 +173,23 @@ std::optional<point::WorkItem> WorkerPool::store(const point::WorkItem& item, po
       store_image_of(point, result, item.problem.units, thread);
     }
   }
-  store_.store(share_.local_index(item.chain, item.position), std::move(result), item.problem.units);
+  keep(share_.local_index(item.chain, item.position), std::move(result), item.problem.units);
   progress_.add_point(thread);
   if (has_next) return item_of(item.chain, item.position + 1, end, item.problem.units);
   states_.finish(item.chain);
   return std::nullopt;
 }
 
+void WorkerPool::keep(std::size_t local_index, point::PointResult&& result, const Units& units) {
+  if (see_) see_(local_index, result);
+  store_.store(local_index, std::move(result), units);
+}
+
 void WorkerPool::store_image_of(std::size_t point, const point::PointResult& result, const Units& units,
                                 std::size_t thread) {
   const auto image = mirror_images_.image_of(point);
   if (!image || is_restored(*image) || is_bereft(*image)) return;
-  store_.store(*image, mirrored(result), units);
+  keep(*image, mirrored(result), units);
   progress_.add_point(thread);
   states_.finish(*image);
 }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -68,6 +69,9 @@ class WorkerPool {
   /// Stores a point's result; returns the next point of its chain, if there is one.
   std::optional<point::WorkItem> store(const point::WorkItem& item, point::PointResult&& result, std::size_t thread);
 
+  /// Keeps the result of a point, which is in `units`, by its local index.
+  void keep(std::size_t local_index, point::PointResult&& result, const Units& units);
+
   /// Stores the result of a point's mirror image, which no other thread touches.
   void store_image_of(std::size_t point, const point::PointResult& result, const Units& units, std::size_t thread);
 
@@ -81,6 +85,7 @@ class WorkerPool {
 
   const Sweep& sweep_;
   const Share& share_;
+  std::function<void(std::size_t, const point::PointResult&)> see_;
   ResultStore& store_;
   ChainStates& states_;
   SweepProgress progress_;

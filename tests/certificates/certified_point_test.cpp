@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "certificates/recorded_motion.hpp"
+#include "certified_run.hpp"
 
 namespace clatter::certificates {
 namespace {
@@ -20,8 +21,7 @@ point::Problem between_stops(double nu, double stop) {
 }
 
 Certificate certificate_of(const point::Problem& problem) {
-  point::ThreadScratch scratch;
-  auto point = certified(problem, scratch);
+  auto point = certified_run(problem);
   EXPECT_TRUE(point.certificate);
   return point.certificate.value_or(Certificate{});
 }
@@ -85,16 +85,14 @@ TEST(CertifiedPoint, a_mass_that_is_never_released_rests_for_a_whole_period) {
 }
 
 TEST(CertifiedPoint, motion_without_a_claim_says_why) {
-  point::ThreadScratch scratch;
   point::Problem free = between_stops(1.0, 0.5);
   free.oscillator = {};
   free.start = {0.0, 1.0, 0.0};
-  EXPECT_EQ(certified(free, scratch).without, Without::force);
+  EXPECT_EQ(certified_run(free).without, Without::force);
 }
 
 /// A chatter that the end cuts has an end that isn't in the motion.
 TEST(CertifiedPoint, a_transient_that_ends_within_a_chatter_has_no_claim) {
-  point::ThreadScratch scratch;
   point::Problem problem = between_stops(0.3, 0.05);
   problem.time.mode = steady::Mode::transient;
   problem.time.duration = 20.0;
@@ -102,7 +100,7 @@ TEST(CertifiedPoint, a_transient_that_ends_within_a_chatter_has_no_claim) {
   const auto chatter = std::ranges::find(whole.events, Kind::chatter, &ClaimedEvent::kind);
   ASSERT_NE(chatter, whole.events.end());
   problem.time.duration = (chatter->time.value + chatter->then.value) / 2;
-  EXPECT_EQ(certified(problem, scratch).without, Without::cut_chatter);
+  EXPECT_EQ(certified_run(problem).without, Without::cut_chatter);
 }
 
 }  // namespace

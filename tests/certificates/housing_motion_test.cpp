@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "certificates/certified_point.hpp"
+#include "certified_run.hpp"
 
 namespace clatter::certificates {
 namespace {
@@ -69,9 +69,8 @@ TEST(HousingMotion, the_derivative_is_that_of_the_difference_of_runs) {
 
 /// The start is all that a verifier reads: a run from it has the claimed events to well within their errors.
 TEST(CertifiedInHousing, a_run_from_the_stated_start_has_the_claimed_events) {
-  point::ThreadScratch scratch;
   const point::Problem problem = thrown();
-  const auto point = certified(problem, scratch);
+  const auto point = certified_run(problem);
   ASSERT_TRUE(point.certificate);
   const Certificate& certificate = *point.certificate;
   EXPECT_EQ(certificate.pressed, Side::lower);

@@ -249,7 +249,7 @@ range = [0.4, 1.4]
         with h5py.File(self.directory / path, "a") as file:
             file["status"][0] = 1
         _, said = self.certify(path, code=1)
-        self.assertTrue(said.endswith(", 1 not reproduced"), said)
+        self.assertTrue(said.endswith(", 1 not reproduced (1 status)"), said)
 
     def test_wrong_input(self):
         path = self.run_text("a", SMALL)

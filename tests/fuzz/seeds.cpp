@@ -106,7 +106,7 @@ results::Dataset figure(std::size_t points, std::size_t samples) {
             {{"flag_values", flags}, {"flag_meanings", meanings}}},
            {"impact_total", {"nu"}, std::vector<std::int64_t>(points, 7), "impacts", "1"},
            {"x", {"nu", "sample"}, ramp(points * samples), "displacement", "1"}},
-          {{"shard", "0/1"}, {"rounding", "sse2"}}};
+          {{"shard", "0/1"}, {"instruction_set", "sse2"}, {"rounding", "sse2"}}};
 }
 
 results::Dataset scalar() { return {{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}}; }
