@@ -67,6 +67,10 @@ void certify_periodic_in_housing(const Problem& problem, const PointResult& resu
   const Problem section = in_housing_from(problem, from, end.phase);
   const auto whole = recorded_in_housing(section, result.observed_turns);
   if (!whole) return;
+  if (whole->events.empty()) {  // wherever the loose mass stands, or drifts to and fro
+    point.without = Without::family;
+    return;
+  }
   const double begin = start_in_housing(*whole), T = period_of(problem.oscillator), time = std::fmod(begin, T);
   const auto way = recorded_in_housing(section, begin / T);
   if (!way) return;

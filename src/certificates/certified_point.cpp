@@ -123,11 +123,36 @@ ClaimedPeriod claimed_period(const PointResult& result, const ErrorBounds& bound
   return period;
 }
 
-void certify_periodic(const Problem& problem, const PointResult& result, CertifiedPoint& point) {
-  if (has_loose_mass(problem.loose)) return certify_periodic_in_housing(problem, result, point);
-  point.without = Without::rounding;
-  const double T = period_of(problem.oscillator);
-  const Problem section = from(problem, result.end.displacement, result.end.velocity, result.end.phase);
+/// States what is claimed of a period that begins at a time after a section, with the start of its problem.
+void certify_from(const Problem& at_start, const PeriodStart& start, const RecordedMotion& motion, double section_phase,
+                  const PointResult& result, CertifiedPoint& point) {
+  const double time = std::fmod(start.time, period_of(at_start.oscillator));
+  const ErrorBounds bounds(at_start, motion, result, time, true);
+  if (!bounds.know_the_start()) {
+    point.without = Without::family;
+    return;
+  }
+  point.certificate = claims_of(at_start, motion, bounds, result);
+  point.certificate->scene.start.phase = section_phase;
+  point.certificate->x_error = point.certificate->v_error = bounds.of_start();
+  point.certificate->time = time, point.certificate->released = start.released;
+  point.certificate->period = claimed_period(result, bounds, start.released != Side::none || start.rests_for_ever);
+  keep_if_known(point, bounds);
+}
+
+/// The same of motion in which double loses its way from one rest to the next: in 50 digits. From a release there is
+/// one motion alone, so it is this one if this rests there.
+void certify_from_release(const Problem& section, const PointResult& result, CertifiedPoint& point) {
+  for (const auto& [side, rests] : {std::pair(Side::lower, "L*"), std::pair(Side::upper, "U*")}) {
+    if (result.impact_word.find(rests) == std::string::npos) continue;
+    PeriodStart start{.released = side};
+    const auto motion = recorded_from_release(section, side, result.observed_turns, start.time);
+    const auto at_start = motion ? begun(section, start) : std::nullopt;
+    if (at_start) return certify_from(*at_start, start, *motion, section.start.phase, result, point);
+  }
+}
+
+void certify_in_double(const Problem& section, const PointResult& result, CertifiedPoint& point) {
   const auto whole = recorded(section, result.observed_turns);
   if (!whole) return;
   const PeriodStart start = start_of_period(*whole);
@@ -137,25 +162,19 @@ void certify_periodic(const Problem& problem, const PointResult& result, Certifi
   if (!motion || !returns(*at_start, *motion)) return;
   if (start.released == Side::none && step_to_return(at_start->start, *motion))
     motion = recorded(*at_start, result.observed_turns);
-  if (!motion) return;
-  const double time = std::fmod(start.time, T);
-  const ErrorBounds bounds(*at_start, *motion, result, time, true);
-  if (!bounds.know_the_start()) {
-    point.without = Without::family;
-    return;
-  }
-  point.certificate = claims_of(*at_start, *motion, bounds, result);
-  point.certificate->scene.start.phase = section.start.phase;
-  point.certificate->x_error = point.certificate->v_error = bounds.of_start();
-  point.certificate->time = time, point.certificate->released = start.released;
-  point.certificate->period = claimed_period(result, bounds, start.released != Side::none || start.rests_for_ever);
-  keep_if_known(point, bounds);
+  if (motion) certify_from(*at_start, start, *motion, section.start.phase, result, point);
+}
+
+void certify_periodic(const Problem& problem, const PointResult& result, CertifiedPoint& point) {
+  if (has_loose_mass(problem.loose)) return certify_periodic_in_housing(problem, result, point);
+  point.without = Without::rounding;
+  const Problem section = from(problem, result.end.displacement, result.end.velocity, result.end.phase);
+  certify_in_double(section, result, point);
+  if (point.without == Without::rounding) certify_from_release(section, result, point);
 }
 
 /// The frame of the extrema that a certificate states.
-Frame stated_frame(const Problem& problem) {
-  return has_loose_mass(problem.loose) ? Frame::absolute : Frame::relative;
-}
+Frame stated_frame(const Problem& problem) { return has_loose_mass(problem.loose) ? Frame::absolute : Frame::relative; }
 
 /// The name of a result that was found otherwise by the run that a certificate is made of; empty: none.
 std::string difference(const KnownResult& known, const PointResult& stated) {

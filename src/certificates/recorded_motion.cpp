@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "point/exact_motion.hpp"
+#include "point/resting_motion.hpp"
 
 namespace clatter::certificates {
 namespace {
@@ -27,6 +28,20 @@ void add(std::vector<RecordedEvent>& events, RecordedEvent event) {
     events.push_back(std::move(event));
 }
 
+std::vector<RecordedEvent> joined_events(const std::vector<motion::Event>& recorded,
+                                         const std::vector<motion::Jacobian<double>>& derivatives, const Stops& stops,
+                                         Growth& growth) {
+  std::vector<RecordedEvent> events;
+  double since = 0.0;
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    if (i < derivatives.size()) growth.pass(derivatives[i], std::min(1.0, recorded[i].time - since));
+    since = recorded[i].time + recorded[i].length;
+    const RecordedEvent event{recorded[i], growth.derivative(), growth.rounding()};
+    if (!(event.lasts() && is_soft(stops, event.side))) add(events, event);
+  }
+  return events;
+}
+
 }  // namespace
 
 std::optional<RecordedMotion> recorded(const point::Problem& problem, double turns, Side released) {
@@ -43,16 +58,20 @@ std::optional<RecordedMotion> recorded(const point::Problem& problem, double tur
 }
 
 std::vector<RecordedEvent> joined_events(const point::MotionRecorder& recorder, const Stops& stops, Growth& growth) {
-  std::vector<RecordedEvent> events;
-  double since = 0.0;
-  for (std::size_t i = 0; i < recorder.events.size(); ++i) {
-    if (i < recorder.derivatives.size())
-      growth.pass(recorder.derivatives[i], std::min(1.0, recorder.events[i].time - since));
-    since = recorder.events[i].time + recorder.events[i].length;
-    const RecordedEvent event{recorder.events[i], growth.derivative(), growth.rounding()};
-    if (!(event.lasts() && is_soft(stops, event.side))) add(events, event);
-  }
-  return events;
+  return joined_events(recorder.events, recorder.derivatives, stops, growth);
+}
+
+std::optional<RecordedMotion> recorded_from_release(const point::Problem& problem, Side side, double turns,
+                                                    double& release) {
+  const auto motion = point::released_motion(problem, side, std::llround(turns));
+  if (!motion) return std::nullopt;
+  release = motion->release;
+  Growth growth;
+  RecordedMotion recorded{.events = joined_events(motion->events, {}, problem.stops, growth),
+                          .duration = turns * period_of(problem.oscillator)};
+  for (RecordedEvent& event : recorded.events) event.derivative = {};  // the start is known, and no rounding grows
+  recorded.end.x = side == Side::upper ? problem.stops.upper : problem.stops.lower;
+  return recorded;
 }
 
 }  // namespace clatter::certificates

@@ -41,4 +41,11 @@ struct RecordedMotion {
 [[nodiscard]] std::optional<RecordedMotion> recorded(const point::Problem& problem, double turns,
                                                      Side released = Side::none);
 
+/// Records the motion of a problem from the first release by a stop after its start on, in 50 digits, for so many
+/// forcing periods, after which that stop lets go of the mass again: the events are exact, so no error grows on the
+/// way. `release` becomes the time of the release since the start. Nothing if there is no such motion, or if 50 digits
+/// don't tell.
+[[nodiscard]] std::optional<RecordedMotion> recorded_from_release(const point::Problem& problem, Side side,
+                                                                  double turns, double& release);
+
 }  // namespace clatter::certificates

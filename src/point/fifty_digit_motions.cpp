@@ -29,6 +29,14 @@ stepping::Limits limits_in_fifty_digits(const Problem& problem) {
   return limits;
 }
 
+/// Whether a mass may come to rest on a stop.
+bool can_hold(const Problem& problem, Side side) {
+  const Stops& stops = problem.stops;
+  const double position = side == Side::upper ? stops.upper : stops.lower,
+               R = side == Side::upper ? stops.restitution_upper : stops.restitution_lower;
+  return std::isfinite(position) && !is_soft(stops, side) && (R != 1 || has_friction(problem.friction));
+}
+
 template <Effects E>
 RestingMotion run_from_release(const Problem& problem, Side side) {
   using Kind = RestingMotion::Kind;
@@ -64,6 +72,62 @@ RestingMotion run_from_release(const Problem& problem, Side side) {
   }
   motion.kind = returns ? Kind::longer : Kind::departs;
   return motion;
+}
+
+/// Keeps the events of a motion, and watches how far rounding carries it.
+template <Effects E>
+class WatchedEvents {
+ public:
+  explicit WatchedEvents(const Scene& scene) : watch_(scene) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    watch_.arc(arc, begin, length);
+  }
+  void rest(const motion::Rest& rest) { add(rest), watch_.rest(rest); }
+  void impact(const motion::Impact& impact) { add(impact), watch_.impact(impact); }
+  void touch(const motion::Touch& touch) { add(touch), watch_.touch(touch); }
+  void separate(const motion::Separation& separation) { add(separation); }
+  void reversal(const motion::Reversal& reversal) { add(reversal), watch_.reversal(reversal); }
+
+  [[nodiscard]] bool is_trusted() const { return watch_.error() <= trusted; }
+  /// Those since a time, which becomes 0.
+  [[nodiscard]] std::vector<motion::Event> events_since(double begin) const {
+    std::vector<motion::Event> events = events_;
+    for (motion::Event& event : events) event.time -= begin;
+    return events;
+  }
+
+ private:
+  template <class Happened>
+  void add(const Happened& happened) {
+    events_.push_back(event_of(happened));
+  }
+
+  ErrorWatch<FiftyDigits, E> watch_;
+  std::vector<motion::Event> events_{};
+};
+
+template <Effects E>
+std::optional<ReleasedMotion> run_until_released(const Problem& problem, Side side, std::int64_t periods) {
+  const BasicScene<FiftyDigits> scene = in_fifty_digits(problem);
+  stepping::Exact<FiftyDigits, E> integrator(scene, scene.stops, limits_in_fifty_digits(problem),
+                                             motion::ChatterRule<FiftyDigits>::as_in_double());
+  auto state = integrator.released_from(side);
+  if (!state) return std::nullopt;
+  const FiftyDigits phase = state->phase_turns;
+  WatchedEvents<E> watch(problem);
+  auto outcome = stepping::Outcome::completed;
+  for (std::int64_t period = 0; period < periods && outcome == stepping::Outcome::completed; ++period)
+    outcome = advance_to_section(integrator, *state, 0, watch);
+  if (outcome == stepping::Outcome::completed) outcome = integrator.advance(*state, phase, 0, watch);
+  const double release = static_cast<double>(phase) * period_of(problem.oscillator);
+  const double end = static_cast<double>(periods) * period_of(problem.oscillator);
+  ReleasedMotion motion{release, watch.events_since(release)};
+  const bool returns = outcome == stepping::Outcome::completed && watch.is_trusted() && !motion.events.empty() &&
+                       motion.events.back().kind == motion::Event::Kind::rest && motion.events.back().side == side &&
+                       motion.events.back().end() >= end * (1 - 4 * epsilon<double>());
+  return returns ? std::optional(std::move(motion)) : std::nullopt;
 }
 
 /// Computes the derivative of a motion.
@@ -113,12 +177,13 @@ std::optional<FixedPoint> fixed_point(const Problem& problem, const motion::Stat
   return with_every_effect(problem, [&]<Effects E>() { return find_fixed_point<E>(problem, near, periods, stopped); });
 }
 
+std::optional<ReleasedMotion> released_motion(const Problem& problem, Side side, std::int64_t periods) {
+  if (!can_hold(problem, side)) return std::nullopt;
+  return with_every_effect(problem, [&]<Effects E>() { return run_until_released<E>(problem, side, periods); });
+}
+
 RestingMotion resting_motion(const Problem& problem, Side side) {
-  const Stops& stops = problem.stops;
-  const double position = side == Side::upper ? stops.upper : stops.lower,
-               R = side == Side::upper ? stops.restitution_upper : stops.restitution_lower;
-  if (!std::isfinite(position) || is_soft(stops, side) || (R == 1 && !has_friction(problem.friction)))
-    return {};  // nothing comes to rest there
+  if (!can_hold(problem, side)) return {};
   return with_every_effect(problem, [&]<Effects E>() { return run_from_release<E>(problem, side); });
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "motion/event.hpp"
 #include "motion/state.hpp"
 #include "point/problem.hpp"
 
@@ -26,5 +28,15 @@ struct RestingMotion {
 /// Runs a problem from the release by a stop to the next one, in 50 digits, until the same stop releases the mass
 /// again.
 [[nodiscard]] RestingMotion resting_motion(const Problem& problem, Side side);
+
+/// A motion from a stop's release on.
+struct ReleasedMotion {
+  double release = 0.0;                 ///< tau since the section before
+  std::vector<motion::Event> events{};  ///< their times are tau since the release
+};
+
+/// The motion of so many forcing periods from the release by a stop, computed in 50 digits; nothing if the stop doesn't
+/// release the mass, or not as the motion ends, or if 50 digits don't tell.
+[[nodiscard]] std::optional<ReleasedMotion> released_motion(const Problem& problem, Side side, std::int64_t periods);
 
 }  // namespace clatter::point
