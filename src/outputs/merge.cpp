@@ -47,11 +47,12 @@ void check_origins(const std::vector<results::ShardHeader>& headers) {
     if (header.schema != first.schema || header.version != first.version || header.git_commit != first.git_commit ||
         header.compiler != first.compiler)
       refuse_pair(first, header, "were written by different builds of clatter", "run all shards with one program");
-    if (header.rounding != first.rounding)
-      refuse_pair(first, header,
-                  "were rounded differently (" + storage::excerpt(header.rounding) + "; " +
-                      storage::excerpt(first.rounding) + ")",
-                  "run all shards with one --arch, on machines of one kind");
+    for (const auto text : {&results::ShardHeader::rounding, &results::ShardHeader::instruction_set})
+      if (header.*text != first.*text)
+        refuse_pair(
+            first, header,
+            "were rounded differently (" + storage::excerpt(header.*text) + "; " + storage::excerpt(first.*text) + ")",
+            "run all shards with one --arch, on machines of one kind");
   }
 }
 
