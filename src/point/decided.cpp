@@ -138,10 +138,10 @@ ObservedTime Decisions::decided_by_fixed_point(const Problem& problem, ObservedT
     return static_cast<double>(orbit.size()) == found.turns && passing(orbit, found.from) != orbit.end();
   });
   if (same == known.end()) {
-    auto exact = fixed_point(problem, found.from, static_cast<std::int64_t>(found.turns));
-    if (!exact || passing(exact->sections, found.from) == exact->sections.end())
+    Sections exact = periodic_sections(problem, found.from, static_cast<std::int64_t>(found.turns));
+    if (passing(exact, found.from) == exact.end())
       return over_window(Status::undecided, problem, std::move(found));
-    same = known.insert(known.end(), std::move(exact->sections));
+    same = known.insert(known.end(), std::move(exact));
   }
   return observed(problem, std::move(found), *same);
 }

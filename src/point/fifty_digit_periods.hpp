@@ -14,13 +14,13 @@ namespace clatter::point {
 
 /// Runs so many forcing periods from the start of a fixed point, and keeps the sections on the way; the state at the
 /// end, or nothing if the run doesn't complete, or `stopped` ends it.
-template <Effects E, class Observer>
-[[nodiscard]] std::optional<motion::State<FiftyDigits>> run_periods(const Problem& problem, FixedPoint& found,
-                                                                    std::int64_t periods,
-                                                                    const std::function<bool()>& stopped,
-                                                                    Observer& observer) {
-  stepping::Exact<FiftyDigits, E> integrator(in_fifty_digits(problem), limits_of(problem));
-  motion::State<FiftyDigits> state = found.start;
+template <Effects E, class Number, class Observer>
+[[nodiscard]] std::optional<motion::State<Number>> run_periods(const Problem& problem, BasicFixedPoint<Number>& found,
+                                                               std::int64_t periods,
+                                                               const std::function<bool()>& stopped,
+                                                               Observer& observer) {
+  stepping::Exact<Number, E> integrator(in_digits<Number>(problem), limits_of(problem));
+  motion::State<Number> state = found.start;
   found.sections.clear();
   for (std::int64_t section = 0; section < periods; ++section) {
     if (stopped && stopped()) return std::nullopt;

@@ -11,11 +11,19 @@
 
 namespace clatter::point {
 
-/// A periodic motion in 50 digits.
-struct FixedPoint {
-  motion::State<FiftyDigits> start{};             ///< at a stroboscopic section
+/// A periodic motion in more digits than double has.
+template <class Number>
+struct BasicFixedPoint {
+  motion::State<Number> start{};                  ///< at a stroboscopic section
   std::vector<motion::State<double>> sections{};  ///< its states from the start on, at all but the last, rounded
 };
+using FixedPoint = BasicFixedPoint<FiftyDigits>;
+
+/// The sections of the periodic motion of so many forcing periods near a state, by Newton's method in as many digits as
+/// it needs, 31 or 50; empty if it doesn't converge.
+[[nodiscard]] std::vector<motion::State<double>> periodic_sections(const Problem& problem,
+                                                                   const motion::State<double>& near,
+                                                                   std::int64_t periods);
 
 /// The periodic motion of so many forcing periods near a state, by Newton's method in 50 digits; nothing if that
 /// doesn't converge to 30 digits, or `stopped` ends it.

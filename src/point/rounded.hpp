@@ -2,7 +2,6 @@
 
 #include <type_traits>
 
-#include "math/fifty_digits.hpp"
 #include "motion/arc.hpp"
 #include "motion/dry_friction.hpp"
 #include "motion/state.hpp"
@@ -10,8 +9,9 @@
 
 namespace clatter::point {
 
-/// A state in 50 digits, rounded to double.
-[[nodiscard]] inline motion::State<double> rounded(const motion::State<FiftyDigits>& state) {
+/// A state in more digits, rounded to double.
+template <class Number>
+[[nodiscard]] motion::State<double> rounded(const motion::State<Number>& state) {
   return {.x = static_cast<double>(state.x),
           .v = static_cast<double>(state.v),
           .phase_turns = static_cast<double>(state.phase_turns),
@@ -26,7 +26,7 @@ namespace clatter::point {
                     state.loose.pressed}};
 }
 
-/// Shows the arcs of a run in 50 digits in double, each rounded at its start: an error of a few roundings, which
+/// Shows the arcs of a run in more digits in double, each rounded at its start: an error of a few roundings, which
 /// doesn't grow. E is the set of effects of the run.
 template <Effects E>
 class InDouble {

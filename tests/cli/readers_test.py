@@ -46,6 +46,7 @@ ROOT = [
     "config_sha256",
     "compiler",
     "scene_names",
+    "instruction_set",
 ]
 # Axes have the same names and order whatever their lengths: some points of the configurations that have many.
 SHORTER = {

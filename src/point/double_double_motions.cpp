@@ -1,0 +1,7 @@
+#include "point/motions_in_digits.hpp"
+
+namespace clatter::point {
+
+template struct InDigits<DoubleDouble>;
+
+}  // namespace clatter::point

@@ -1,0 +1,215 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "math/double_double.hpp"
+#include "motion/tangent_map.hpp"
+#include "point/error_watch.hpp"
+#include "point/every_effect.hpp"
+#include "point/fifty_digit_periods.hpp"
+#include "point/fixed_point.hpp"
+#include "point/resting_motion.hpp"
+#include "steady/repeat.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
+
+// Motions that double can't tell, in numbers of 31 or of 50 digits. Each is compiled in a file of its own, with all
+// that it does: most of the templates are common.
+
+namespace clatter::point {
+
+/// Errors relative to the motion's size up to which the events of a run are believed.
+constexpr double trusted = 1e-14;
+/// The same of its sections: in 31 digits they have to be so exact that, rounded to double, they are those of 50 digits
+/// but once in some 10^5.
+template <class Number>
+constexpr double trusted_of_sections = std::numeric_limits<Number>::digits10 > 40 ? trusted : 1e-21;
+
+inline stepping::Limits limits_in_more_digits(const Problem& problem) {
+  constexpr double most_impacts = 1e5;  // each takes up to a millisecond
+  stepping::Limits limits = limits_of(problem);
+  limits.impacts = std::min(limits.impacts, most_impacts);
+  return limits;
+}
+
+/// Whether a mass may come to rest on a stop.
+inline bool can_hold(const Problem& problem, Side side) {
+  const Stops& stops = problem.stops;
+  const double position = side == Side::upper ? stops.upper : stops.lower,
+               R = side == Side::upper ? stops.restitution_upper : stops.restitution_lower;
+  return std::isfinite(position) && !is_soft(stops, side) && (R != 1 || has_friction(problem.friction));
+}
+
+template <class Number, Effects E>
+RestingMotion run_from_release(const Problem& problem, Side side) {
+  using Kind = RestingMotion::Kind;
+  constexpr auto longest = static_cast<std::int64_t>(steady::RepeatFinder::longest);
+  const BasicScene<Number> scene = in_digits<Number>(problem);
+  stepping::Exact<Number, E> integrator(scene, scene.stops, limits_in_more_digits(problem),
+                                        motion::ChatterRule<Number>::as_in_double());
+  auto state = integrator.released_from(side);
+  if (!state) return {};
+  RestingMotion motion{.kind = Kind::undecided};
+  ErrorWatch<Number, E> watch(problem);
+  std::array<std::optional<std::int64_t>, 2> released_at;  // [stop]: the forcing period of its first release
+  released_at[index_of(side)] = 0;
+  std::int64_t latest = 0;  // forcing period of the latest release
+  bool returns = false;     // after too many periods
+  for (std::int64_t period = 0; period <= 2 * longest && period - latest <= longest; ++period) {
+    ++motion.simulated;
+    const stepping::Outcome outcome = advance_to_section(integrator, *state, 0, watch);
+    if (outcome != stepping::Outcome::completed || !(watch.error() <= trusted)) return motion;
+    const std::array<bool, 2> releases = watch.take_releases();
+    for (std::size_t stop = 0; stop < 2; ++stop) {
+      if (!releases[stop]) continue;
+      auto& first = released_at[stop];
+      if (first && period - *first <= longest) {
+        motion.sections.erase(motion.sections.begin(), motion.sections.begin() + *first);
+        motion.kind = watch.error() <= trusted_of_sections<Number> ? Kind::periodic : Kind::undecided;
+        return motion;
+      }
+      returns = returns || first;
+      if (!first) first = period;
+      latest = period;
+    }
+    motion.sections.push_back(rounded(*state));
+  }
+  if (returns)
+    motion.kind = Kind::longer;
+  else if (watch.error() <= trusted_of_sections<Number>)
+    motion.kind = Kind::departs;
+  return motion;
+}
+
+/// Keeps the events of a motion, and watches how far rounding carries it.
+template <class Number, Effects E>
+class WatchedEvents {
+ public:
+  explicit WatchedEvents(const Scene& scene) : watch_(scene) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    watch_.arc(arc, begin, length);
+  }
+  void rest(const motion::Rest& rest) { add(rest), watch_.rest(rest); }
+  void impact(const motion::Impact& impact) { add(impact), watch_.impact(impact); }
+  void touch(const motion::Touch& touch) { add(touch), watch_.touch(touch); }
+  void separate(const motion::Separation& separation) { add(separation); }
+  void reversal(const motion::Reversal& reversal) { add(reversal), watch_.reversal(reversal); }
+
+  [[nodiscard]] bool is_trusted() const { return watch_.error() <= trusted_of_sections<Number>; }
+  /// Those since a time, which becomes 0.
+  [[nodiscard]] std::vector<motion::Event> events_since(double begin) const {
+    std::vector<motion::Event> events = events_;
+    for (motion::Event& event : events) event.time -= begin;
+    return events;
+  }
+
+ private:
+  template <class Happened>
+  void add(const Happened& happened) {
+    events_.push_back(event_of(happened));
+  }
+
+  ErrorWatch<Number, E> watch_;
+  std::vector<motion::Event> events_{};
+};
+
+template <class Number, Effects E>
+std::optional<ReleasedMotion> run_until_released(const Problem& problem, Side side, std::int64_t periods) {
+  const BasicScene<Number> scene = in_digits<Number>(problem);
+  stepping::Exact<Number, E> integrator(scene, scene.stops, limits_in_more_digits(problem),
+                                        motion::ChatterRule<Number>::as_in_double());
+  auto state = integrator.released_from(side);
+  if (!state) return std::nullopt;
+  const Number phase = state->phase_turns;
+  WatchedEvents<Number, E> watch(problem);
+  auto outcome = stepping::Outcome::completed;
+  for (std::int64_t period = 0; period < periods && outcome == stepping::Outcome::completed; ++period)
+    outcome = advance_to_section(integrator, *state, 0, watch);
+  if (outcome == stepping::Outcome::completed) outcome = integrator.advance(*state, phase, 0, watch);
+  const double release = static_cast<double>(phase) * period_of(problem.oscillator);
+  const double end = static_cast<double>(periods) * period_of(problem.oscillator);
+  ReleasedMotion motion{release, watch.events_since(release)};
+  const bool returns = outcome == stepping::Outcome::completed && watch.is_trusted() && !motion.events.empty() &&
+                       motion.events.back().kind == motion::Event::Kind::rest && motion.events.back().side == side &&
+                       motion.events.back().end() >= end * (1 - 4 * epsilon<double>());
+  return returns ? std::optional(std::move(motion)) : std::nullopt;
+}
+
+/// Computes the derivative of a motion, and watches how far rounding carries it.
+template <class Number, Effects E>
+class WatchedDerivative {
+ public:
+  explicit WatchedDerivative(const Scene& scene) : tangent_(scene.stops), watch_(scene) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    tangent_.arc(arc, begin, length), watch_.arc(arc, begin, length);
+  }
+  void rest(const motion::Rest& rest) { tangent_.rest(rest), watch_.rest(rest); }
+  void impact(const motion::Impact& impact) { tangent_.impact(impact), watch_.impact(impact); }
+  void touch(const motion::Touch& touch) { tangent_.touch(touch), watch_.touch(touch); }
+  void reversal(const motion::Reversal& reversal) { tangent_.reversal(reversal), watch_.reversal(reversal); }
+
+  [[nodiscard]] motion::Jacobian<Number> map() const { return tangent_.map(); }
+  [[nodiscard]] bool is_trusted() const { return watch_.error() <= trusted_of_sections<Number>; }
+
+ private:
+  motion::TangentMap<Number> tangent_;
+  ErrorWatch<Number, E> watch_;
+};
+
+/// By Newton's method, until a step is below 1e-30 of the state; in 31 digits, which rounding leaves a step of its own,
+/// until the one after a step that was small already, so that only rounding is left.
+template <class Number, Effects E>
+std::optional<BasicFixedPoint<Number>> find_fixed_point(const Problem& problem, const motion::State<double>& near,
+                                                        std::int64_t periods, const std::function<bool()>& stopped) {
+  constexpr int most_iterations = 12;
+  constexpr bool has_digits_to_spare = std::numeric_limits<Number>::digits10 > 40;
+  BasicFixedPoint<Number> found;
+  found.start.x = near.x, found.start.v = near.v;
+  bool was_small = has_digits_to_spare;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    WatchedDerivative<Number, E> derivative(problem);
+    const auto state = run_periods<E>(problem, found, periods, stopped, derivative);
+    if (!state) return std::nullopt;
+    const Number dx = state->x - found.start.x, dv = state->v - found.start.v;
+    const bool is_small =
+        abs(dx) + abs(dv) <= Number(has_digits_to_spare ? 1e-30 : 1e-21) * (abs(state->x) + abs(state->v));
+    if (is_small && was_small)
+      return has_digits_to_spare || derivative.is_trusted() ? std::optional(found) : std::nullopt;
+    was_small = is_small || has_digits_to_spare;
+    const motion::Jacobian<Number> D = derivative.map();
+    const Number determinant = (1 - D[0]) * (1 - D[3]) - D[1] * D[2];
+    found.start.x += ((1 - D[3]) * dx + D[1] * dv) / determinant;
+    found.start.v += (D[2] * dx + (1 - D[0]) * dv) / determinant;
+  }
+  return std::nullopt;
+}
+
+/// What the functions of these names in `resting_motion.hpp` and `fixed_point.hpp` do, in numbers of one type.
+template <class Number>
+struct InDigits {
+  static RestingMotion resting_motion(const Problem& problem, Side side) {
+    return with_every_effect(problem, [&]<Effects E>() { return run_from_release<Number, E>(problem, side); });
+  }
+  static std::optional<ReleasedMotion> released_motion(const Problem& problem, Side side, std::int64_t periods) {
+    return with_every_effect(problem,
+                             [&]<Effects E>() { return run_until_released<Number, E>(problem, side, periods); });
+  }
+  static std::optional<BasicFixedPoint<Number>> fixed_point(const Problem& problem, const motion::State<double>& near,
+                                                            std::int64_t periods,
+                                                            const std::function<bool()>& stopped = {}) {
+    return with_every_effect(problem,
+                             [&]<Effects E>() { return find_fixed_point<Number, E>(problem, near, periods, stopped); });
+  }
+};
+
+extern template struct InDigits<DoubleDouble>;
+extern template struct InDigits<FiftyDigits>;
+
+}  // namespace clatter::point

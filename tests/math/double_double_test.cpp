@@ -1,0 +1,84 @@
+#include "math/double_double.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "math/fifty_digits.hpp"
+#include "support/random.hpp"
+
+namespace clatter {
+namespace {
+
+FiftyDigits exact(const DoubleDouble& x) { return FiftyDigits(x.high()) + FiftyDigits(x.low()); }
+
+/// A number with digits in both parts, of a size between 10^-range and 10^range.
+DoubleDouble any_number(std::mt19937_64& random, double range) {
+  std::uniform_real_distribution<double> part(-1, 1);
+  const double high = part(random) * std::pow(10.0, range * part(random));
+  return DoubleDouble::sum(high, high * part(random) * std::ldexp(1.0, -54));
+}
+
+constexpr double few_roundings = 16 * 4.930380657631324e-32;
+
+double error_of(const DoubleDouble& value, const FiftyDigits& right) {
+  return static_cast<double>(abs(exact(value) - right) / abs(right));
+}
+
+TEST(DoubleDouble, ComputesAsFiftyDigitsDo) {
+  std::mt19937_64 random(61);
+  for (int i = 0; i < 20000; ++i) {
+    const DoubleDouble a = any_number(random, 30), b = any_number(random, 30);
+    const FiftyDigits x = exact(a), y = exact(b);
+    EXPECT_LE(error_of(a * b, x * y), few_roundings);
+    EXPECT_LE(error_of(a / b, x / y), few_roundings);
+    EXPECT_LE(error_of(sqrt(abs(a)), sqrt(abs(x))), few_roundings);
+    EXPECT_LE(abs(exact(a + b) - (x + y)), few_roundings * (abs(x) + abs(y)));
+    const DoubleDouble near = a * (1 + b * std::ldexp(1.0, -60));
+    EXPECT_LE(abs(exact(a - near) - (x - exact(near))), few_roundings * abs(x - exact(near)));  // no digit is lost
+    EXPECT_EQ(a < b, x < y);
+    EXPECT_EQ(a >= b, x >= y);
+    EXPECT_EQ(exact(floor(a)), floor(x));
+  }
+}
+
+TEST(DoubleDouble, FunctionsHaveAllDigits) {
+  std::mt19937_64 random(62);
+  for (int i = 0; i < 3000; ++i) {
+    const DoubleDouble a = any_number(random, 2), b = any_number(random, 2), small = any_number(random, 12) * 1e-12;
+    const FiftyDigits x = exact(a), y = exact(b), s = exact(small);
+    const double size = std::max(1.0, std::abs(a.high()));
+    EXPECT_LE(abs(exact(sin(a)) - sin(x)), few_roundings * size) << a.high();
+    EXPECT_LE(abs(exact(cos(a)) - cos(x)), few_roundings * size) << a.high();
+    EXPECT_LE(error_of(sin(small), sin(s)), few_roundings);
+    EXPECT_LE(error_of(exp(a), exp(x)), few_roundings * size) << a.high();
+    EXPECT_LE(error_of(expm1(small), expm1(s)), few_roundings);
+    EXPECT_LE(abs(exact(log(abs(a))) - log(abs(x))), few_roundings * (1 + abs(log(abs(x)))));
+    EXPECT_LE(error_of(log1p(small), log1p(s)), few_roundings);
+    EXPECT_LE(error_of(atan2(a, b), atan2(x, y)), few_roundings);
+    EXPECT_LE(error_of(atan(a), atan(x)), few_roundings);
+    EXPECT_LE(error_of(tan(small), tan(s)), few_roundings);
+  }
+  EXPECT_LE(error_of(pi<DoubleDouble>(), pi<FiftyDigits>()), few_roundings);
+}
+
+TEST(DoubleDouble, ReachesInfinityWithoutNaN) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const DoubleDouble far = infinite;
+  EXPECT_EQ(far + 1, far);
+  EXPECT_EQ(1 - far, -far);
+  EXPECT_EQ(2 * far, far);
+  EXPECT_EQ(1 / far, DoubleDouble(0));
+  EXPECT_EQ(DoubleDouble(1) / 0, far);
+  EXPECT_EQ(exp(-far), DoubleDouble(0));
+  EXPECT_GT(far, std::numeric_limits<DoubleDouble>::max());
+  EXPECT_TRUE(isnan(far - far));
+  EXPECT_FALSE(isfinite(far));
+  EXPECT_EQ(sqrt(DoubleDouble(0)), DoubleDouble(0));
+}
+
+}  // namespace
+}  // namespace clatter
