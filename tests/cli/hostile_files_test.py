@@ -193,7 +193,16 @@ class HostileFiles(CommandLine):
         def mark(attribute):
             return lambda file, directory: file.attrs.__setitem__(attribute, "x" + CONTROLS)
 
-        for attribute in ("clatter_version", "git_commit", "compiler", "config", "rounding", "instruction_set", "shard", "clatter_schema"):
+        for attribute in (
+            "clatter_version",
+            "git_commit",
+            "compiler",
+            "config",
+            "rounding",
+            "instruction_set",
+            "shard",
+            "clatter_schema",
+        ):
             for original in ("a.0-of-2.h5", "a.1-of-2.h5"):
                 name = self.craft(original, mark(attribute))
                 other = "a.1-of-2.h5" if original == "a.0-of-2.h5" else "a.0-of-2.h5"

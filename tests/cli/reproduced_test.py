@@ -217,7 +217,9 @@ class Reproduced(CommandLine):
         with h5py.File(self.directory / "a.h5", "a") as file:
             file.attrs["instruction_set"] = "vsx\x1b"
             file["x_min"][()] = 0.0
-        self.assertTrue(self.certify(1)[1].endswith("; the file was computed with vsx\\x1b, which this machine lacks\n"))
+        self.assertTrue(
+            self.certify(1)[1].endswith("; the file was computed with vsx\\x1b, which this machine lacks\n")
+        )
         self.assertEqual(len(found), len({arch for arch, _ in found}))
         self.assertGreater(len({x_min for _, x_min in found}), 1)  # else the scene tells nothing
 
