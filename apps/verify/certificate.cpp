@@ -1,6 +1,5 @@
 #include "certificate.hpp"
 
-#include <set>
 #include <utility>
 
 #include "field.hpp"
@@ -269,25 +268,6 @@ void read_for_people(const Field& root, Certificate& certificate) {
   }
   const bool is_special = certificate.special.has_value();
   if (is_special && !certificate.number_of_parameter()) certificate.for_people.emplace_back("parameter");
-}
-
-/// Reads JSON. An object with two members of one name says two things at once.
-Json json_of(const std::string& line) {
-  std::vector<std::set<std::string>> names;
-  const auto look = [&](int depth, Json::parse_event_t event, const Json& parsed) {
-    if (depth > 8) throw FormatError("the line nests more than eight objects; write one as the guide shows");
-    if (event == Json::parse_event_t::object_start) names.emplace_back();
-    if (event == Json::parse_event_t::key && !names.back().insert(parsed.get<std::string>()).second)
-      throw FormatError("the line has the member " + shown(parsed.get<std::string>()) +
-                        " twice in an object; keep one");
-    if (event == Json::parse_event_t::object_end) names.pop_back();
-    return true;
-  };
-  try {
-    return Json::parse(line, look);
-  } catch (const Json::exception& error) {
-    throw FormatError(std::string("is no JSON (") + error.what() + "); write one object a line");
-  }
 }
 
 }  // namespace

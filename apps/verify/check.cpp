@@ -1,7 +1,6 @@
 #include "check.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include "claims.hpp"
 #include "deadline.hpp"
@@ -79,7 +78,7 @@ void check_transient(const Certificate& certificate, Report& report) {
   report.compare("end, v", end.y, certificate.end->v);
 }
 
-Finding found_in(const Certificate& certificate, slong precision, double limit) {
+Finding found_in(const Certificate& certificate, slong precision) {
   const Precision present(precision);
   Report report;
   try {
@@ -94,8 +93,8 @@ Finding found_in(const Certificate& certificate, slong precision, double limit) 
     report.add(Verdict::refuted, refuted.what());
   } catch (const Undecided& undecided) {
     report.add(Verdict::undecided, undecided.what());
-  } catch (const OutOfTime&) {
-    report.add(Verdict::undecided, "no verdict within " + Number(limit).text() + " s; --limit gives it more");
+  } catch (const OutOfTime& over) {
+    report.add(Verdict::undecided, over.what());
   }
   Finding finding = report.finding();
   finding.bits = precision;
@@ -104,15 +103,13 @@ Finding found_in(const Certificate& certificate, slong precision, double limit) 
 
 }  // namespace
 
-Finding check(const Certificate& certificate, double limit) {
-  using Clock = std::chrono::steady_clock;
-  deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit));
+Finding check(const Certificate& certificate) {
   Finding finding;
   const bool chatters =
       std::ranges::any_of(certificate.events, [](const ClaimedEvent& event) { return event.kind == Kind::chatter; });
   for (slong precision = chatters ? 128 : 64; precision <= 1024; precision *= 2) {  // its last flights are minute
-    finding = found_in(certificate, precision, limit);
-    if (finding.verdict != Verdict::undecided || Clock::now() >= deadline) break;
+    finding = found_in(certificate, precision);
+    if (finding.verdict != Verdict::undecided || deadline.is_over()) break;
   }
   return finding;
 }

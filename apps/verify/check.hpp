@@ -17,7 +17,7 @@ struct Finding {
 };
 
 /// Proves or refutes a certificate, in 64 bits (128 if it has a chatter), then in twice as many until it is decided or
-/// there are 1024, or so many seconds are over.
-[[nodiscard]] Finding check(const Certificate& certificate, double limit = 1e9);
+/// there are 1024, or the time of this thread's claim is over.
+[[nodiscard]] Finding check(const Certificate& certificate);
 
 }  // namespace verify

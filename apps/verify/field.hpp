@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -11,18 +10,10 @@
 #include <vector>
 
 #include "certificate.hpp"
+#include "deadline.hpp"
+#include "json.hpp"
 
 namespace verify {
-
-using Json = nlohmann::json;
-
-/// The beginning of a text of a file, without control characters.
-inline std::string shown(const std::string& text) {
-  const std::string escaped = Json(text.substr(0, 40)).dump(-1, ' ', true, Json::error_handler_t::replace);
-  std::string quoted(escaped);
-  quoted.front() = quoted.back() = '\'';
-  return quoted;
-}
 
 /// Whether a text is a decimal number: [+-] digits [. digits] [e [+-] digits], with a digit before or after the point.
 inline bool is_decimal(const std::string& text) {
@@ -89,8 +80,10 @@ class Field {
   [[nodiscard]] std::vector<Field> items() const {
     if (!json_.is_array()) refuse("is no array", "write [...]");
     std::vector<Field> list;
-    for (std::size_t i = 0; i < json_.size(); ++i)
+    for (std::size_t i = 0; i < json_.size(); ++i) {
+      require_time();
       list.emplace_back(json_[i], path_ + "[" + std::to_string(i) + "]", *read_);
+    }
     return list;
   }
   [[nodiscard]] std::string text() const {

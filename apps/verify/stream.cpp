@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "deadline.hpp"
+
 namespace verify {
 namespace {
 
@@ -22,13 +24,16 @@ constexpr std::size_t longest_line = std::size_t{16} << 20u;
 
 /// A bug of this program is the verdict on its line, and no other line suffers from it.
 void examine(Line& line, double limit) {
+  deadline.begin(limit);  // reading counts
   try {
     if ((line.of_list = read_list_line(line.text))) return;
     const Certificate certificate = read_certificate(line.text);
     line.place = certificate.place, line.for_people = certificate.for_people;
-    line.finding = check(certificate, limit);
+    line.finding = check(certificate);
   } catch (const FormatError& error) {
     line.malformed = error.what();
+  } catch (const OutOfTime& over) {
+    line.finding = {Verdict::undecided, {std::string("undecided: ") + over.what()}, 0};
   } catch (const std::exception& error) {
     line.bug = error.what();
   }

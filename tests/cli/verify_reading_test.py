@@ -1,0 +1,78 @@
+"""How clatter-verify reads: in time and memory that a line can't drive up.
+
+Environment: CLATTER and CLATTER_VERIFY, the programs.
+"""
+
+import json
+import resource
+import subprocess
+import time
+import unittest
+
+from certified_runs import VERIFY
+from command_line import LONGEST, SANITIZED
+from malformed_certificates import RIGHT
+from verifying import Verifying
+
+IMPACT = '{"event":"impact","stop":"lower","time":[1.5,0],"v":[-1.5,0]}'
+
+
+def with_member(name, value):
+    """The right one with one more member, or one that is of some other value, written as JSON."""
+    rest = {key: member for key, member in RIGHT.items() if key != name}
+    return f'{json.dumps(rest)[:-1]}, "{name}": {value}}}\n'
+
+
+class VerifyReading(Verifying):
+    def test_time_grows_no_faster_than_a_list_of_objects(self):
+        line = with_member("at", "[" + ",".join(["{}"] * 200_000) + "]")
+        begin = time.monotonic()
+        self.assertEqual(self.verify("-", text=line).returncode, 0)
+        self.assertLess(time.monotonic() - begin, 4)  # 0.1 s; it was 8 s and more
+
+    def test_reading_is_a_part_of_the_time_for_a_claim(self):
+        line = with_member("events", "[" + ",".join([IMPACT] * 100_000) + "]")
+        result = self.verify("-", "--limit", "0.01", text=line + json.dumps(RIGHT))
+        self.assertEqual((result.returncode, result.stdout.count("\n")), (3, 2))
+        self.assertEqual(
+            result.stdout,
+            "stdin:1: undecided: no verdict within 0.01 s; --limit gives it more\n1 proved, 0 refuted, 1 undecided\n",
+        )
+
+    @unittest.skipIf(SANITIZED, "a sanitizer takes memory of its own")
+    def test_memory_is_bounded_by_the_values_that_a_certificate_may_have(self):
+        most = 2**24 // 3 - 1000
+        for line in (
+            with_member("at", "[" + ",".join(["[]"] * most) + "]"),
+            with_member("at", "[" + ",".join(['{"a":0}'] * 1_000_001) + "]"),
+        ):
+            result = self.within(2**27, line)
+            self.assertEqual((result.returncode, result.stdout), (2, "0 proved, 0 refuted, 0 undecided\n"))
+            self.assertEqual(
+                result.stderr,
+                "stdin:1: the line holds more than 2000000 values; write a certificate of fewer events\n",
+            )
+        longest = with_member("events", "[" + ",".join([IMPACT] * 199_000) + "]")
+        self.assertEqual(self.within(2**29, longest).returncode, 1)
+
+    def within(self, memory, line):
+        """What is said of a line if the program may have so many bytes."""
+        return subprocess.run(
+            [VERIFY, "-", "--threads", "1"],
+            input=line,
+            capture_output=True,
+            text=True,
+            timeout=LONGEST,
+            check=False,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (memory, memory)),
+        )
+
+    def test_a_line_nests_only_as_deep_as_people_need(self):
+        for depth, code in ((7, 0), (8, 2)):
+            result = self.verify("-", text=with_member("at", "[" * depth + "]" * depth))
+            self.assertEqual(result.returncode, code)
+        self.assertIn("stdin:1: the line nests more than 8 objects and arrays; write one as", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
