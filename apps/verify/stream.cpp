@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <exception>
-#include <fstream>
-#include <iostream>
+#include <memory>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -52,12 +52,12 @@ void examine_all(std::vector<Line>& lines, const Manner& manner) {
   work();
 }
 
-/// The lines of a stream that aren't blank. Of one that is too long only the beginning is kept.
+/// The lines of a file that aren't blank. Of one that is too long only the beginning is kept.
 class Lines {
  public:
-  explicit Lines(std::istream& in) : source_(*in.rdbuf()) {}
+  explicit Lines(std::FILE* file) : file_(file) {}
 
-  /// False at the end, or if the stream can't be read on.
+  /// False at the end, or if the file can't be read on.
   bool read(Line& line) {
     do {
       line = {};
@@ -67,18 +67,17 @@ class Lines {
     } while (line.malformed.empty() && line.text.find_first_not_of(" \t\r") == std::string::npos);
     return true;
   }
-  /// The `errno` of a stream that can't be read on, else 0.
+  /// The `errno` of a file that can't be read on, else 0. A stream of C++ doesn't tell it of standard input.
   [[nodiscard]] int error() const { return error_; }
 
  private:
-  static constexpr int end = std::char_traits<char>::eof();
-
-  bool read_text(Line& line) try {
+  bool read_text(Line& line) {
     std::size_t length = 0;
-    int c = source_.sbumpc();
-    if (c == end) return false;
-    for (; c != end && c != '\n'; c = source_.sbumpc())
+    int c = next();
+    if (c == EOF) return false;
+    for (; c != EOF && c != '\n'; c = next())
       if (++length <= longest_line) line.text += static_cast<char>(c);
+    if (error_ != 0) return false;  // the rest of the line is missing
     if (length <= longest_line) {
       if (line.text.find('\0') != std::string::npos)
         line.malformed = "the line has a byte 0; leave it out", line.text = {};
@@ -88,12 +87,14 @@ class Lines {
                      std::to_string(longest_line) + " at most";
     line.text = {};
     return true;
-  } catch (const std::ios_base::failure&) {
-    error_ = errno;
-    return false;
+  }
+  int next() {
+    const int c = std::getc(file_);
+    if (c == EOF && std::ferror(file_) != 0) error_ = errno;
+    return c;
   }
 
-  std::streambuf& source_;
+  std::FILE* file_;
   std::size_t number_ = 0;
   int error_ = 0;
 };
@@ -138,11 +139,11 @@ class List {
   bool is_open_ = false, has_any_ = false;
 };
 
-/// Examines the lines of a stream, some at a time, so that memory doesn't grow with the file. A stream that begins like
-/// no certificate isn't read on: each line of it would be a mistake.
-void examine_stream(std::istream& in, const std::string& name, const Manner& manner, Result& result) {
+/// Examines the lines of a file, some at a time, so that memory doesn't grow with it. One that begins like no
+/// certificate isn't read on: each line of it would be a mistake.
+void examine_stream(std::FILE* file, const std::string& name, const Manner& manner, Result& result) {
   List list(name, result);
-  Lines source(in);
+  Lines source(file);
   bool is_first = true;
   for (bool more = true; more;) {
     std::vector<Line> lines;
@@ -159,20 +160,20 @@ void examine_stream(std::istream& in, const std::string& name, const Manner& man
     examine_all(lines, manner);
     for (const Line& line : lines) list.add(line);
   }
-  list.end();
   if (source.error() != 0)
-    result.add_failure(io_error, "cannot read '" + name + "' to its end: " + std::strerror(source.error()));
-  else if (!list.has_any())
+    return result.add_failure(io_error, "cannot read '" + name + "' to its end: " + std::strerror(source.error()));
+  list.end();
+  if (!list.has_any())
     result.add_failure(usage_error, "'" + name + "' holds no certificate; make some by clatter certify");
 }
 
 }  // namespace
 
 void examine_file(const std::string& name, const Manner& manner, Result& result) {
-  if (name == "-") return examine_stream(std::cin, "stdin", manner, result);
-  std::ifstream file(name);
+  if (name == "-") return examine_stream(stdin, "stdin", manner, result);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "r"), &std::fclose);
   if (!file) return result.add_failure(io_error, "cannot read '" + name + "': " + std::strerror(errno));
-  examine_stream(file, name, manner, result);
+  examine_stream(file.get(), name, manner, result);
 }
 
 }  // namespace verify

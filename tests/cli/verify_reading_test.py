@@ -1,9 +1,10 @@
-"""How clatter-verify reads: in time and memory that a line can't drive up.
+"""How clatter-verify reads: in time and memory that a line can't drive up, and up to an error that it tells of.
 
 Environment: CLATTER and CLATTER_VERIFY, the programs.
 """
 
 import json
+import os
 import resource
 import subprocess
 import time
@@ -72,6 +73,36 @@ class VerifyReading(Verifying):
             result = self.verify("-", text=with_member("at", "[" * depth + "]" * depth))
             self.assertEqual(result.returncode, code)
         self.assertIn("stdin:1: the line nests more than 8 objects and arrays; write one as", result.stderr)
+
+    def test_an_error_while_reading_is_no_end(self):
+        def said_of(name, number):
+            return (
+                f"clatter-verify: cannot read '{name}' to its end: {os.strerror(number)}\n",
+                "0 proved, 0 refuted, 0 undecided\n",
+                74,
+            )
+
+        for path, number in ((str(self.directory), 21), ("/proc/self/mem", 5)):
+            result = self.verify(path)
+            self.assertEqual((result.stderr, result.stdout, result.returncode), said_of(path, number))
+            source = os.open(path, os.O_RDONLY)
+            try:
+                result = self.from_stdin(stdin=source)
+            finally:
+                os.close(source)
+            self.assertEqual((result.stderr, result.stdout, result.returncode), said_of("stdin", number))
+        result = self.from_stdin(preexec_fn=lambda: os.close(0))
+        self.assertEqual((result.stderr, result.stdout, result.returncode), said_of("stdin", 9))
+
+    @staticmethod
+    def from_stdin(**how):
+        return subprocess.run([VERIFY, "-"], capture_output=True, text=True, timeout=LONGEST, check=False, **how)
+
+    def test_what_was_read_before_an_error_counts(self):
+        self.write("right.jsonl", json.dumps(RIGHT) + "\n")
+        self.assertEqual(self.verify(str(self.directory), "right.jsonl").stdout, "1 proved, 0 refuted, 0 undecided\n")
+        wrong = json.dumps({**RIGHT, "end": {**RIGHT["end"], "x": [1, 1e-3]}})
+        self.assertEqual(self.verify(str(self.directory), "-", text=wrong).returncode, 1)
 
 
 if __name__ == "__main__":
