@@ -30,6 +30,7 @@ class Motion : public Followed {
   Event finish_rest(const Ball& end) override;
 
   [[nodiscard]] bool is_resting() const override { return resting_; }
+  [[nodiscard]] bool is_within_stop() const { return mode_ == Mode::contact; }  ///< a soft one
   [[nodiscard]] bool is_sticking() const override { return sticks_; }
   [[nodiscard]] Vector state() const { return set_.hull(); }              ///< x and v at the end
   [[nodiscard]] Vector centre() const { return set_.image_of_centre(); }  ///< x and v at the end of the middle one

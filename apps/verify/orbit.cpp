@@ -97,7 +97,8 @@ std::optional<Response> steady_response(const Certificate& certificate, const Sc
     if (!(margin.of(response->centre, Ball(0)) > swing)) return std::nullopt;
   }
   const auto [sine, cosine] = sin_cos(scene.nu * start.time + scene.phase);
-  return Response{{response->centre + response->in_phase * sine + response->quadrature * cosine,
+  return Response{motion.is_within_stop(),
+                  {response->centre + response->in_phase * sine + response->quadrature * cosine,
                    scene.nu * (response->in_phase * cosine - response->quadrature * sine)},
                   response->centre - response->amplitude,
                   response->centre + response->amplitude,

@@ -21,6 +21,7 @@ struct Orbit : FixedBox<Vector> {
 
 /// Periodic motion without an event.
 struct Response {
+  bool within_stop = false;  ///< all the time, a soft one
   Vector start;
   Ball x_min, x_max;
   Matrix derivative;  ///< of the claimed period

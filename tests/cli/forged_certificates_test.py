@@ -36,10 +36,15 @@ REASONS = {  # what is said of each, None: it is true, and proved
     "twice the period of a press throughout": "periods: claimed 2, found 1",
     "a chatter without an impact, from the stop on": "event 1, chatter at the upper stop: claimed, found",
     "the fastest impact, beside a chatter that hides a faster one": "how fast the impacts within a chatter are",
+    "the symmetry of a motion within one soft stop": "symmetric: claimed true, found false",
+    "a motion within one soft stop": None,
+    "the symmetry of a free motion before one stop": "symmetric: the scene isn't, to its last digit",
+    "the symmetry of a free motion between two stops": None,
 }
 UNDECIDED = {
     "the fastest impact, beside a chatter that hides a faster one",
     "a fold, but for friction",
+    "the symmetry of a free motion before one stop",
 }
 
 
