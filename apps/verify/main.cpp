@@ -72,7 +72,7 @@ int run(int count, const char* const* words) {
   if (!(limit > 0 && limit <= 1e9)) fail(usage_error, "--limit must be above 0, and 1e9 at most");
   Result result(given.count("json") != 0);
   for (const std::string& name : given["file"].as<std::vector<std::string>>())
-    examine_file(name, {static_cast<unsigned>(threads), limit}, result);
+    examine_file(name, {.threads = static_cast<unsigned>(threads), .limit = limit}, result);
   result.print();
   if (!std::cout.flush()) fail(io_error, "cannot write the result");
   return result.exit_code();

@@ -23,19 +23,21 @@ constexpr std::size_t lines_at_once = 4096, bytes_at_once = std::size_t{64} << 2
 constexpr std::size_t longest_line = std::size_t{16} << 20u;
 
 /// A bug of this program is the verdict on its line, and no other line suffers from it.
-void examine(Line& line, double limit) {
-  deadline.begin(limit);  // reading counts
+void examine(Line& line, const Manner& manner) {
+  deadline.begin(manner.limit);  // reading counts
   try {
     if ((line.of_list = read_list_line(line.text))) return;
     const Certificate certificate = read_certificate(line.text);
     line.place = certificate.place, line.for_people = certificate.for_people;
-    line.finding = check(certificate);
+    line.finding = manner.check(certificate);
   } catch (const FormatError& error) {
     line.malformed = error.what();
   } catch (const OutOfTime& over) {
     line.finding = {Verdict::undecided, {std::string("undecided: ") + over.what()}, 0};
   } catch (const std::exception& error) {
     line.bug = error.what();
+  } catch (...) {  // of a library
+    line.bug = "an exception of an unknown kind";
   }
   line.text = {};
 }
@@ -44,7 +46,7 @@ void examine_all(std::vector<Line>& lines, const Manner& manner) {
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < lines.size(); i = next++)
-      if (lines[i].malformed.empty()) examine(lines[i], manner.limit);
+      if (lines[i].malformed.empty()) examine(lines[i], manner);
     flint_cleanup();
   };
   std::vector<std::jthread> pool;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <iosfwd>
+#include <functional>
 #include <string>
 
 #include "result.hpp"
@@ -11,6 +11,7 @@ namespace verify {
 struct Manner {
   unsigned threads = 1;
   double limit = 60;  ///< seconds for a claim
+  std::function<Finding(const Certificate&)> check = verify::check;
 };
 
 /// Examines the lines of a file of certificates; `-` is standard input.
