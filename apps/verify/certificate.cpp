@@ -34,8 +34,7 @@ Certificate::LooseNumbers loose_of(const Field& scene, const Field& field) {
     if (const auto wall = field.find(name_of(side))) loose.walls[index_of(side)] = wall->get("position").number();
   const auto& [lower, upper] = loose.walls;
   if (!lower && !upper) field.refuse("has no walls", "give lower, upper or both");
-  if (lower && upper && !(lower->ball() < upper->ball()))
-    field.refuse("has its lower wall above the upper one", "exchange them");
+  if (lower && upper && !(*lower < *upper)) field.refuse("has its lower wall above the upper one", "exchange them");
   return loose;
 }
 
@@ -48,10 +47,10 @@ Certificate::SceneNumbers scene_of(const Field& field) {
   scene.friction_static = scene.friction;
   if (const auto level = field.find("friction_static")) {
     scene.friction_static = level->number_from(0, Field::infinity);
-    if (scene.friction_static.ball() < scene.friction.ball())
+    if (scene.friction_static < scene.friction)
       level->refuse("is below friction", "give the same or more, or leave it out");
   }
-  if (scene.stops[0] && scene.stops[1] && !(scene.stops[0]->position.ball() < scene.stops[1]->position.ball()))
+  if (scene.stops[0] && scene.stops[1] && !(scene.stops[0]->position < scene.stops[1]->position))
     field.refuse("has its lower stop above the upper one", "exchange them");
   if (const auto loose = field.find("loose")) scene.loose = loose_of(field, *loose);
   return scene;
@@ -249,8 +248,7 @@ void read_start(const Field& start, Certificate& certificate) {
 void read_end(const Field& end, Certificate& certificate) {
   certificate.end = {end.get("time").number(), end.get("x").claimed(), end.get("v").claimed(), {}, {}};
   if (certificate.scene.loose) certificate.end->z = end.get("z").claimed(), certificate.end->w = end.get("w").claimed();
-  if (!(certificate.end->time.ball() > certificate.start_time.ball()))
-    end.refuse("is not after the start", "give a later time");
+  if (!(certificate.end->time > certificate.start_time)) end.refuse("is not after the start", "give a later time");
 }
 
 /// What the members for people say, and their names.

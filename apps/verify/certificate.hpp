@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,9 @@ class Number {
 
   [[nodiscard]] Ball ball() const;  ///< in the precision of the thread
   [[nodiscard]] std::string text() const;
+  /// Whether they are in this order, or the same, exactly.
+  friend std::strong_ordering operator<=>(const Number& a, const Number& b);
+  friend bool operator==(const Number& a, const Number& b) { return std::is_eq(a <=> b); }
 
  private:
   std::variant<double, std::string> value_ = 0.0;

@@ -19,6 +19,16 @@ std::string Number::text() const {
   return {buffer.data(), end};
 }
 
+/// Numbers are below 2^1024, so with 4096 bits each is known to less than 2^-3072. A text has 400 characters at most
+/// and is above 1e-300, so it is a multiple of 1e-700, a double is one of 2^-1074: two that aren't the same are at
+/// least 2^-1074 5^-700 > 2^-2700 apart.
+std::strong_ordering operator<=>(const Number& a, const Number& b) {
+  const Precision enough(4096);
+  const Ball x = a.ball(), y = b.ball();
+  if (x < y) return std::strong_ordering::less;
+  return x > y ? std::strong_ordering::greater : std::strong_ordering::equal;
+}
+
 namespace {
 
 /// A scene of the numbers that `of(member, stop)` gives; stop -1: a number of the scene itself.

@@ -111,8 +111,8 @@ class Field {
   }
   [[nodiscard]] Number number_from(double least, double most, bool with_least = true) const {
     const Number value = number();
-    const Ball ball = value.ball();
-    if (ball < Ball(least) || (!with_least && !(ball > Ball(least))) || ball > Ball(most))
+    const auto above_least = value <=> Number(least);
+    if (above_least < 0 || (above_least == 0 && !with_least) || (std::isfinite(most) && value > Number(most)))
       refuse("is " + value.text(), std::string("it must be ") + (with_least ? "at least " : "above ") +
                                        Number(least).text() +
                                        (std::isfinite(most) ? " and at most " + Number(most).text() : ""));

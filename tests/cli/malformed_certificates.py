@@ -57,6 +57,24 @@ MALFORMED = [  # a line, and the place and how to fix it that are told
     (in_scene(lower={"position": 1, "R": 2}), "scene.lower.R: is 2; it must be at least 0 and at most 1"),
     (in_scene(upper={"position": -6, "R": 1}), "scene: has its lower stop above the upper one; exchange"),
     (in_scene(friction=0.2, friction_static=0.1), "scene.friction_static: is below friction; give the same or more"),
+    # to the last digit
+    (
+        in_scene(lower={"position": -5, "R": "1." + "0" * 380 + "1"}),
+        "scene.lower.R: is 1.0*1; it must be at least 0 and",
+    ),
+    (
+        in_scene(lower={"position": -5, "R": "-1e-299"}),
+        "scene.lower.R: is -1e-299; it must be at least 0 and at most 1",
+    ),
+    (
+        in_scene(friction="0.2" + "0" * 90 + "1", friction_static="0.2"),
+        "scene.friction_static: is below friction; give the same or more",
+    ),
+    (in_scene(friction=0.2, friction_static="0.2"), "scene.friction_static: is below friction; give"),  # 0.2 + 1.1e-17
+    (
+        in_scene(upper={"position": "-5.0", "R": 1}, lower={"position": "-5", "R": 1}),
+        "scene: has its lower stop above the upper one",
+    ),
     (
         {**RIGHT, "events": [{"event": "stick", "time": [1, 1], "until": [2, 1], "x": [0, 1]}]},
         r"events\[0\]: is an event of dry friction; the scene has none",

@@ -74,6 +74,26 @@ class VerifyReading(Verifying):
             self.assertEqual(result.returncode, code)
         self.assertIn("stdin:1: the line nests more than 8 objects and arrays; write one as", result.stderr)
 
+    def test_numbers_are_compared_to_their_last_digit(self):
+        tiny = "0" * 290 + "1"
+        for friction, static, R in (
+            ("0.1", "0.1", "1"),
+            ("0.1", "0.10", "1." + "0" * 390),
+            ("0.1", "0.1" + tiny, "0." + "9" * 390),
+            ("0.1", 0.1, 1),  # the double is above 0.1
+            ("1e-1", "0.1e0", "10e-1"),
+        ):
+            levels = {"friction": friction, "friction_static": static}
+            scene = {**RIGHT["scene"], **levels, "lower": {"position": "-5" + "." + tiny, "R": R}}
+            scene["upper"] = {"position": "-5.0", "R": R}
+            start, end = {"time": "0." + tiny, "x": 0, "v": 0}, {
+                "time": "0." + tiny[:-1] + "2",
+                "x": [0, 9],
+                "v": [0, 9],
+            }
+            result = self.verify("-", text=json.dumps({**RIGHT, "scene": scene, "start": start, "end": end}))
+            self.assertEqual((result.returncode, result.stderr), (3, "for people, and not proved: point\n"))
+
     def test_an_error_while_reading_is_no_end(self):
         def said_of(name, number):
             return (
