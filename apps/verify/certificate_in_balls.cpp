@@ -45,7 +45,8 @@ BasicScene<T> scene_made(const Certificate::SceneNumbers& shape, const Of& of) {
                       of_scene(&In::phase),
                       {},
                       of_scene(&In::friction),
-                      of_scene(&In::friction_static)};
+                      of_scene(&In::friction_static),
+                      shape.friction == shape.friction_static};
   for (std::size_t i = 0; i < 2; ++i) {
     if (!shape.stops[i]) continue;
     const auto of_stop = [&](Number At::*member) {

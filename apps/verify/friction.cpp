@@ -108,7 +108,7 @@ Event Motion::stay(const Ball& end) {
   const auto of_centre = release(first->way, centre.x, centre.y);
   if (!of_centre) throw Undecided("when friction lets the mass go");
   set_.move({of_centre->time, centre.y}, {Ball(0), first->slope, Ball(0), Ball(1)}, {Ball(0), Ball(0)});
-  heading_ = first->way, still_for_ = (scene_.friction_static - scene_.friction).is_zero() ? 2 : 1;
+  heading_ = first->way, still_for_ = scene_.is_let_go_gently ? 2 : 1;
   event.until = set_.hull().x;
   return event;
 }

@@ -37,7 +37,7 @@ void Motion::release(Side side, const Ball& after, bool nearest) {
   begin(Mode::free, side, 3);
   if (!scene_.is_rough()) return;
   heading_ = -sign_of(side);
-  still_for_ = (scene_.friction_static - scene_.friction).is_zero() ? 2 : 1;
+  still_for_ = scene_.is_let_go_gently ? 2 : 1;
 }
 
 /// The mass after an impact: on its way back, or without speed, when the force holds it or pulls it away at once.

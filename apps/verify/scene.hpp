@@ -47,6 +47,7 @@ struct BasicScene {
   Number h, k, f, nu, load, phase;
   std::array<std::optional<BasicStop<Number>>, 2> stops;  ///< [side]
   Number friction{0}, friction_static{0};                 ///< of a mass that moves, and the most that holds a still one
+  bool is_let_go_gently = true;                           ///< both are the same, exactly: so x'' grows from 0
   std::optional<BasicLooseMass<Number>> loose{};
 
   [[nodiscard]] const BasicStop<Number>& stop(Side side) const { return *stops[index_of(side)]; }

@@ -201,6 +201,21 @@ class Verify(Verifying):
                 if result.returncode:
                     self.assertIn(f"word: claimed '{word}', found '{certificate['word']}'", result.stdout)
 
+    def test_friction_in_digits_that_no_double_has_holds_the_mass_as_firmly_as_it_slows_it(self):
+        """Left out, friction_static is the same, so that the mass is let go with x'' = 0 exactly."""
+        file = self.certificates("rough", ROUGH.replace("friction_static = 0.25\n", ""))
+        kinds = collections.Counter()
+        for certificate in certificates_in(file):
+            scene = certificate["scene"]
+            levels = {"friction": str(scene["friction"])}
+            scene = {name: scene[name] for name in scene if name != "friction_static"}
+            for level in ({}, {"friction_static": levels["friction"] + "0"}):
+                changed = {**certificate, "scene": {**scene, **levels, **level}}
+                result = self.verify("-", text=json.dumps(changed))
+                self.assertEqual(result.returncode, 0, result.stdout)
+            kinds.update(event["event"] for event in certificate["events"])
+        self.assertGreater(kinds["stick"], 5)
+
     def test_a_scene_that_is_symmetric_to_24_digits_only_proves_no_symmetry(self):
         for certificate in certificates_in(self.certificates("soft", SOFT)):
             if certificate.get("symmetric") and certificate["events"]:
