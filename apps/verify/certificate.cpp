@@ -264,8 +264,9 @@ void read_for_people(const Field& root, Certificate& certificate) {
     if (*member == 'p' || *member == 's') place.append(member).append(" ");
     place += *member == 'n' && text.size() > 1 ? text.substr(1, text.size() - 2) : text;
   }
-  const bool is_special = certificate.special.has_value();
-  if (is_special && !certificate.number_of_parameter()) certificate.for_people.emplace_back("parameter");
+  if (!certificate.special) return;
+  if (!certificate.number_of_parameter()) certificate.for_people.emplace_back("parameter");
+  if (certificate.special->slopes.phase != Number()) certificate.for_people.emplace_back("slopes.phase");
 }
 
 }  // namespace

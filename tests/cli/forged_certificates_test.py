@@ -88,11 +88,26 @@ class ForgedCertificates(unittest.TestCase):
         certificate["parameter"][0] *= -1
         self.assertRegex(self.remark_of(certificate), "^refuted: parameter: claimed -1.52")
 
-    def remark_of(self, certificate):
+    def test_a_phase_that_moves_with_the_parameter_shifts_time_alone_and_is_for_people(self):
+        (certificate,) = [one for one in forged() if one["name"] == "one period of that fold"]
+        for slope, names in ((0, set()), (0.5, {"slopes.phase"}), ("-3e1", {"slopes.phase"})):
+            certificate["slopes"]["phase"] = slope
+            found = self.found_of(certificate)
+            self.assertEqual((found["proved"], set(found["for_people"]) - {*certificate}), (1, names))
+        certificate["slopes"] = {"phase": 1}
+        found = self.found_of(certificate)
+        self.assertEqual((found["proved"], found["for_people"][-2:]), (0, ["slopes.phase", "special"]))
+        self.assertIn("parameter", found["for_people"])
+
+    @staticmethod
+    def found_of(certificate):
         with tempfile.NamedTemporaryFile("w", suffix=".jsonl") as file:
             file.write(json.dumps(certificate))
             file.flush()
-            (claim,) = verified(file.name)["claims"]
+            return verified(file.name)
+
+    def remark_of(self, certificate):
+        (claim,) = self.found_of(certificate)["claims"]
         self.assertEqual(claim["verdict"], "refuted")
         return claim["remarks"][0]
 
