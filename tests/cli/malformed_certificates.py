@@ -57,6 +57,10 @@ MALFORMED = [  # a line, and the place and how to fix it that are told
     (in_scene(lower={"position": 1, "R": 2}), "scene.lower.R: is 2; it must be at least 0 and at most 1"),
     (in_scene(upper={"position": -6, "R": 1}), "scene: has its lower stop above the upper one; exchange"),
     (in_scene(friction=0.2, friction_static=0.1), "scene.friction_static: is below friction; give the same or more"),
+    (in_scene(k="0." + "1" * 399), "scene.k: '0.1*' is no decimal number; write e.g."),
+    (in_scene(k="1.1e300"), "scene.k: '1.1e300' is beyond 1e-300 to 1e300; change the units"),
+    (in_scene(k="-9e-301"), "scene.k: '-9e-301' is beyond 1e-300 to 1e300; change the units"),
+    ({**RIGHT, "claim": "periodic", "periods": 1000001}, "periods: is out of range; write 1 to 1000000"),
     # to the last digit
     (
         in_scene(lower={"position": -5, "R": "1." + "0" * 380 + "1"}),
