@@ -64,6 +64,9 @@ class Truth:
         states = [(self.motion.state(t), self.motion.state(t + half)) for t in times]
         sums = [one[0] + other[0] for one, other in states]
         apart = max(sums) - min(sums)
+        if "lower" in self.scene and "upper" in self.scene:  # the mirror is in their middle
+            middle = number(self.scene["lower"]["position"]) + number(self.scene["upper"]["position"])
+            apart = max(apart, *(abs(whole - middle) for whole in sums))
         if "loose" in self.scene and "lower" in housing and "upper" in housing:
             middle = number(housing["lower"]["position"]) + number(housing["upper"]["position"])
             apart = max(apart, *(abs(one[2] + other[2] - middle) for one, other in states))

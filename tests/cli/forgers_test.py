@@ -53,6 +53,22 @@ word = true
 extrema = true
 """
 
+WITHIN_ONE_STOP = """[scene]
+f = 0.125
+h = 0.125
+stiffness = -1
+stop_lower = -0.5
+stop_upper = 0.5
+stop_stiffness = 16
+stop_damping = 0.1
+x0 = 0.53
+[sweep]
+nu = "linspace(0.4, 1.2, 3)"
+[observe]
+word = true
+extrema = true
+"""
+
 
 class Simulation(unittest.TestCase):
     def test_flights_obey_the_equation_of_motion(self):
@@ -97,7 +113,7 @@ class Forgers(CommandLine):
                 yield from certificates_in(file)
 
     def shipped_certificates(self):
-        for name, text in (("rests", RESTS), ("housed", HOUSED)):
+        for name, text in (("rests", RESTS), ("housed", HOUSED), ("within", WITHIN_ONE_STOP)):
             result = self.clatter("run", self.write(f"{name}.toml", text), "-q", "-o", f"{name}.h5")
             self.assertIn(result.returncode, (0, 1), result.stderr)
             certified(self.directory / f"{name}.h5", self.directory / f"{name}.jsonl")
