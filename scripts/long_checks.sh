@@ -22,7 +22,8 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   combinations COUNT random scenes of all effects together, each written in several ways, by the program,
                and branches, followed sweeps and starts of a tenth of them (default 3000; about 0.2 s each)
   coincidences COUNT random scenes in which events fall together, and in which they don't: starts on a contact and
-               between, keys at zero and at 1e-9, branches begun again from any of their set, scenes and machines
+               between, keys at zero and at 1e-9, branches begun again from any of their set, scenes and machines,
+               other units of time
                (default 2000; about 0.5 s each)
   sensitivity  derivatives by keys of COUNT random scenes, and as many with a loose mass: what units demand of them,
                and differences of runs (default 3000; about 40 ms each)
@@ -52,7 +53,7 @@ case "${1-}" in
   kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=1000 ;;
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;
   combinations) filter=combinations_test.Combinations count=3000 ;;
-  coincidences) filter=coincidences_test count=2000 ;;
+  coincidences) filter='coincidences_test units_of_time_test' count=2000 ;;
   sensitivity) count=3000
     filter='sensitivity_relations_test.OfRandomScenes loose_mass_sensitivity_test.OfRandomScenes' ;;
   releases) filter=releases_test.Releases.test_random_rests_are_told_as_60_digits_tell_them count=300 ;;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,10 +21,20 @@ struct Field {
   double weight = 1;  ///< Omega: the norm of a difference is that of (Omega x, v)
   double drift = 0;   ///< bound of the rate at which the norm grows, forwards (eqs. 48, 57); backwards 2 h more
 
-  /// The field of some arcs in the norm of (x, v).
+  /// The field of some arcs in the norm of (x, v), where time is counted in units of 1/`rate`.
   template <class ArcConstants>
-  [[nodiscard]] static Field of(const ArcConstants& constants) {
-    return {constants.h, constants.k, std::abs(constants.f) * constants.nu, 1, std::abs(1 - constants.k) / 2};
+  [[nodiscard]] static Field of(const ArcConstants& constants, double rate) {
+    const double k = constants.k / (rate * rate), shake = std::abs(constants.f) / (rate * rate) * (constants.nu / rate);
+    return {constants.h / rate, k, shake, 1, std::abs(1 - k) / 2};
+  }
+
+  /// By how much the norm of a difference grows at most in a time, forwards: by the rate, or, unless the spring pushes
+  /// away, by the sizes of the propagator's entries, since a lack of energy doesn't make a motion faster (eq. 48).
+  [[nodiscard]] double growth(double time) const {
+    const double by_rate = drift > 0 ? std::exp(drift * time) : 1.0;
+    if (!(k >= 0)) return by_rate;
+    const double root = std::sqrt(k), b = weight * std::min(time, 1 / root), c = std::min(k * time, root) / weight;
+    return std::min(by_rate, norm(1.0, (b - c) / 2) + (b + c) / 2);
   }
 
   /// By x''' = f nu cos(theta) - k x' - 2 h x''; infinite if the time is too long for that.

@@ -17,31 +17,42 @@ namespace clatter::motion {
 ///
 /// Between impacts the difference of two motions is a free motion, whose energy norm d never grows (h >= 0, k = 1; for
 /// other k it grows by eq. 48), so all keep clear of the stops if the observed one keeps clear of stops moved inwards
-/// by d. At an impact with speed u both are continued through the stop for a time |s| <= 2 d/u, and are transversal
-/// there if eq. 29 holds. Then the difference after the impact is the saltation matrix (eq. 27) times the one before,
-/// and the remainder is of second order, bounded by Taylor's theorem (`rebound`).
+/// by d. Where the force is far faster than the spring, time is counted in its unit, so that a flight lasts about 1. At
+/// an impact with speed u both are continued through the stop for a time |s| <= 2 d/u, and are transversal there if eq.
+/// 29 holds. Then the difference after the impact is the saltation matrix (eq. 27) times the one before, and the
+/// remainder is of second order, bounded by Taylor's theorem (`rebound`).
 class Neighbourhood {
  public:
-  /// All motions within `start`; `rounding` bounds the error of displacements and velocities. If the start is beside a
-  /// stop and `have_met`, all of them are on the same side of their impact there as it is, or are continued to that.
-  Neighbourhood(const Stops& stops, const Ellipse& start, double rounding, bool have_met = false)
-      : stops_(stops), first_order_(start), rounding_(rounding), reach_(start.size() + rounding), have_met_(have_met) {}
+  /// All motions within `start`, a set of (x, v/`rate`); `rounding` bounds the error of these two. If the start is
+  /// beside a stop and `have_met`, all of them are on the same side of their impact there as it is, or are continued to
+  /// that.
+  Neighbourhood(const Stops& stops, const Ellipse& start, double rounding, bool have_met = false, double rate = 1)
+      : stops_(in_units(stops, rate)),
+        first_order_(start),
+        rounding_(rounding),
+        reach_(start.size() + rounding),
+        rate_(rate),
+        have_met_(have_met) {}
 
   template <class A>
-  void arc(const A& arc, double begin, double length) {
+  void arc(const A& arc, double tau, double duration) {
     if (!holds_) return;
-    field_ = Field::of(arc.constants());
-    const double growth = field_.drift > 0 ? std::exp(field_.drift * length) : 1.0;
-    if (!std::exchange(begun_, true)) begin_beside_stop(arc.start(), growth);
-    if (growth > 1) grow(begin, growth);
+    const double begin = rate_ * tau, length = rate_ * duration;
+    field_ = Field::of(arc.constants(), rate_);
+    if (!std::exchange(begun_, true)) begin_beside_stop(in_units(arc.start()), field_.growth(length));
+    grow(begin, begin + length);
     const double from = std::max(0.0, clear_from_ - begin);
     if (approached_ == Side::none && from < length) clear(arc, begin, from, length);
-    advance(arc.constants(), length);
-    force_ = arc.constants().force(arc.phase_after(length).sine), friction_ = arc.constants().friction;
+    advance(arc.constants(), duration);
+    force_ = acceleration(arc.constants().force(arc.phase_after(duration).sine));
+    friction_ = acceleration(arc.constants().friction);
   }
   void rest(const Rest&) { holds_ = false; }  // which impacts of a chatter are taken changes with the start
   void impact(const Impact& impact) {
-    if (holds_) holds_ = approached_ == impact.side && impact.time >= clear_from_ && rebound(impact);
+    if (!holds_) return;
+    const Impact same = {rate_ * impact.time,  impact.side,     impact.before / rate_,
+                         impact.after / rate_, impact.position, impact.turns};
+    holds_ = approached_ == same.side && same.time >= clear_from_ && rebound(same);
   }
 
   /// Whether the proof holds up to here; not while the mass is so near a stop that some of the motions may have met it.
@@ -50,7 +61,7 @@ class Neighbourhood {
   [[nodiscard]] bool holds_before(Side next) const {
     return holds_ && (approached_ == Side::none || approached_ == next);
   }
-  /// The start, mapped by the derivative.
+  /// The start, mapped by the derivative; of (x, v/`rate`), too.
   [[nodiscard]] const Ellipse& first_order() const { return first_order_; }
   /// To be added to `first_order`.
   [[nodiscard]] const Ellipse& remainder() const { return remainder_; }
@@ -61,11 +72,22 @@ class Neighbourhood {
   struct Departure {
     double time, speed, pull, acceleration, waited;
   };
-  /// Maps both ellipses by the free motion of an arc.
+  /// Quantities in the unit of time.
+  [[nodiscard]] double acceleration(double a) const { return a / (rate_ * rate_); }
+  [[nodiscard]] Motion<double> in_units(Motion<double> m) const {
+    m.v /= rate_, m.a = acceleration(m.a);
+    return m;
+  }
+  [[nodiscard]] static Stops in_units(Stops stops, double rate) {
+    stops.stiffness_lower /= rate * rate, stops.stiffness_upper /= rate * rate;
+    return stops;
+  }
+
+  /// Maps both ellipses by the free motion of an arc that lasts so long in tau.
   template <class ArcConstants>
-  void advance(const ArcConstants& constants, double length) {
-    const auto p = constants.propagator(length);
-    const Jacobian<double> free{p.a, p.b, -constants.spring(p.b), p.c};
+  void advance(const ArcConstants& constants, double duration) {
+    const auto p = constants.propagator(duration);
+    const Jacobian<double> free{p.a, rate_ * p.b, -constants.spring(p.b) / rate_, p.c};
     first_order_ = first_order_.mapped(free), remainder_ = remainder_.mapped(free);
   }
 
@@ -88,12 +110,12 @@ class Neighbourhood {
   template <class A>
   void clear(const A& arc, double begin, double from, double length) {
     const Stops inner{stops_.lower + reach_, stops_.upper - reach_, stops_.restitution_lower, stops_.restitution_upper};
-    const auto start = from > 0 ? arc.at(from) : arc.start();
+    const auto start = from > 0 ? arc.at(from / rate_) : arc.start();
     holds_ = start.x > inner.lower && start.x < inner.upper;
     if (!holds_) return;
-    const auto contact = next_contact(A(arc.constants(), start, arc.anchor()), inner, length - from);
+    const auto contact = next_contact(A(arc.constants(), start, arc.anchor()), inner, (length - from) / rate_);
     holds_ = contact.resolved;
-    approached_ = contact.side, approached_at_ = begin + from + contact.elapsed;
+    approached_ = contact.side, approached_at_ = begin + from + rate_ * contact.elapsed;
   }
 
   /// Takes the differences through an impact; false if they are not transversal there (eq. 29).
@@ -124,7 +146,8 @@ class Neighbourhood {
 
   /// Whether the mass leaves the stop, and does not meet the other one, before the flight is examined.
   [[nodiscard]] bool depart(const Departure& departure) {
-    reach_ = field_.near(departure.speed, departure.acceleration, departure.waited).growth * size();
+    begin_flight(departure.time,
+                 field_.near(departure.speed, departure.acceleration, departure.waited).growth * size());
     departure_ = departure;
     return leaves();
   }
@@ -143,9 +166,13 @@ class Neighbourhood {
                               : away.acceleration * wait + reach_ <= speed / 2;
     return goes && (speed + away.acceleration * wait) * wait + reach_ < stops_.upper - stops_.lower;
   }
-  /// Lets the bound grow to one that holds to the end of an arc (eq. 48); it has to hold from the departure on.
-  void grow(double begin, double growth) {
-    reach_ *= growth;
+  /// The bound of differences in a flight, where it begins.
+  void begin_flight(double time, double reach) { flight_from_ = time, reach_ = least_reach_ = reach; }
+  /// Lets it grow to one that holds to the end of an arc (eq. 48); it has to hold from the departure on.
+  void grow(double begin, double end) {
+    const double growth = field_.growth(end - flight_from_);
+    if (!(growth > 1)) return;
+    reach_ = growth * least_reach_;
     if (clear_from_ > begin) holds_ = holds_ && leaves();
   }
 
@@ -155,6 +182,9 @@ class Neighbourhood {
   Ellipse first_order_, remainder_{};
   double rounding_;
   double reach_;                  ///< bound of the energy norm of differences in the present flight
+  double least_reach_ = reach_;   ///< the same at its beginning
+  double flight_from_ = 0.0;      ///< which is then; or since the last reversal under friction
+  double rate_;                   ///< times, speeds and accelerations are those in units of 1/`rate_`
   Departure departure_{};         ///< the last one
   double clear_from_ = 0.0;       ///< until then a flight is near the stop that it began on
   Side approached_ = Side::none;  ///< the stop that some of the motions may have met already

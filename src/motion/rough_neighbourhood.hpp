@@ -18,30 +18,32 @@ namespace clatter::motion {
 class RoughNeighbourhood : public SoftNeighbourhood {
  public:
   /// All motions within `start`, under friction with a static level.
-  RoughNeighbourhood(const Stops& stops, const Ellipse& start, double rounding, double static_level)
-      : SoftNeighbourhood(stops, start, rounding), static_level_(static_level) {}
+  RoughNeighbourhood(const Stops& stops, const Ellipse& start, double rounding, double static_level, double rate = 1)
+      : SoftNeighbourhood(stops, start, rounding, false, rate), static_level_(acceleration(static_level)) {}
 
   template <class A>
-  void arc(const A& arc, double begin, double length) {
-    SoftNeighbourhood::arc(arc, begin, length);
+  void arc(const A& arc, double tau, double duration) {
+    SoftNeighbourhood::arc(arc, tau, duration);
     if (!holds_) return;
+    const double begin = rate_ * tau, length = rate_ * duration;
     keep_moving(arc, begin, length);
     if (moving_from_ <= begin + length) least_bound_ = 0;
   }
   void rest(const Rest&) { holds_ = false; }  // a stick forgets the speed, at an instant that changes with the start
   void impact(const Impact& impact) {
-    if (all_move(impact.time)) SoftNeighbourhood::impact(impact);
+    if (all_move(rate_ * impact.time)) SoftNeighbourhood::impact(impact);
   }
   void touch(const Touch& touch) {
-    if (all_move(touch.time)) SoftNeighbourhood::touch(touch);
+    if (all_move(rate_ * touch.time)) SoftNeighbourhood::touch(touch);
   }
   void separate(const Separation& separation) {
-    if (all_move(separation.time)) SoftNeighbourhood::separate(separation);
+    if (all_move(rate_ * separation.time)) SoftNeighbourhood::separate(separation);
   }
   void reversal(const Reversal& reversal) {
     if (!holds_) return;
-    holds_ =
-        slows_ && approached_ == Side::none && reversal.time >= std::max(clear_from_, moving_from_) && turn(reversal);
+    const Reversal same{rate_ * reversal.time, reversal.position, acceleration(reversal.before),
+                        acceleration(reversal.after)};
+    holds_ = slows_ && approached_ == Side::none && same.time >= std::max(clear_from_, moving_from_) && turn(same);
     slows_ = false;
   }
 
@@ -59,13 +61,14 @@ class RoughNeighbourhood : public SoftNeighbourhood {
     const double sign = std::signbit(arc.constants().friction) ? 1 : -1;  // friction acts against the velocity
     const double from = std::max(0.0, moving_from_ - begin);
     if (slows_ || !(from < length)) return;
-    const Motion<double> start = from > 0 ? arc.at(from) : arc.start();
-    holds_ = sign * start.v > bound_;
+    const Motion<double> start = from > 0 ? arc.at(from / rate_) : arc.start();
+    const Margin<double> speed{-rate_ * bound_, 0, sign};
+    holds_ = speed.of(start) > 0;
     if (!holds_) return;
-    const Margin<double> speed{-bound_, 0, sign};
-    const auto crossing = first_crossing(A(arc.constants(), start, arc.anchor()), std::array{speed}, length - from);
+    const auto crossing =
+        first_crossing(A(arc.constants(), start, arc.anchor()), std::array{speed}, (length - from) / rate_);
     holds_ = crossing.resolved;
-    if (crossing.margin == 0) slows_ = true, slows_from_ = begin + from + crossing.elapsed;
+    if (crossing.margin == 0) slows_ = true, slows_from_ = begin + from + rate_ * crossing.elapsed;
   }
 
   /// Takes the differences through a reversal; false unless all motions turn back there, once, and at once.
@@ -93,7 +96,8 @@ class RoughNeighbourhood : public SoftNeighbourhood {
     const double longer = std::max(wait, 4 * d / after);
     const LocalBounds away = field_.near(0, std::max(before, after), longer);
     const double c = std::abs(field_.k) / field_.weight + 2 * field_.h;
-    least_bound_ = d, reach_ = std::max(reach_, d), moving_from_ = time + longer;
+    least_bound_ = d, moving_from_ = time + longer;
+    begin_flight(time, std::max(reach_, d));
     return away.jerk * longer + c * away.growth * d <= after / 2;
   }
 

@@ -24,17 +24,18 @@ class SoftNeighbourhood : public Neighbourhood {
   using Neighbourhood::Neighbourhood;
 
   template <class A>
-  void arc(const A& arc, double begin, double length) {
+  void arc(const A& arc, double tau, double duration) {
     if (!holds_) return;
-    end_ = begin + length;
+    const double begin = rate_ * tau;
+    end_ = begin + rate_ * duration;
     const Side pressing = arc.constants().stop.side, around = pressing != Side::none ? pressing : beyond(arc.start());
-    if (around != Side::none) return within(arc, begin, length, around, pressing != Side::none ? contact : outrun);
+    if (around != Side::none) return within(arc, begin, duration, around, pressing != Side::none ? contact : outrun);
     if (!begun_ && beside_soft_stop(arc.start())) return refuse();
     if (mode_ != outside && mode_ != unknown) leave(arc, begin);
     mode_ = outside;
-    Neighbourhood::arc(arc, begin, length);
+    Neighbourhood::arc(arc, tau, duration);
     holds_ = holds_ && (!leaving_ || stays_left());
-    last_ = arc.at(length), bound_ = reach_;
+    last_ = in_units(arc.at(duration)), bound_ = reach_;
   }
   void impact(const Impact& impact) {
     leaving_ = false;
@@ -45,12 +46,13 @@ class SoftNeighbourhood : public Neighbourhood {
     stop_ = soft_stop_at<double>(stops_, touch.side), leaving_ = false;
     const Mode from = std::exchange(mode_, contact);
     holds_ = from == (touch.from_outside ? outside : outrun) && approached_ == touch.side &&
-             cross(touch.time, touch.velocity, from);
+             cross(rate_ * touch.time, touch.velocity / rate_, from);
   }
   void separate(const Separation& separation) {
     if (!holds_) return;
     const Mode from = std::exchange(mode_, outrun);
-    holds_ = from == contact && approached_ == separation.side && cross(separation.time, separation.velocity, from);
+    holds_ = from == contact && approached_ == separation.side &&
+             cross(rate_ * separation.time, separation.velocity / rate_, from);
   }
 
   /// Whether the proof holds up to here; not while some of the motions may have had an event that others have not.
@@ -77,11 +79,12 @@ class SoftNeighbourhood : public Neighbourhood {
 
   /// Takes the differences over an arc beyond a soft stop's position, with `mode` contact or outrun.
   template <class A>
-  void within(const A& arc, double begin, double length, Side side, Mode mode) {
+  void within(const A& arc, double begin, double duration, Side side, Mode mode) {
     const auto& constants = arc.constants();
-    field_ = mode == contact ? in_its_norm(Field::of(constants)) : Field::of(constants);
+    const double length = rate_ * duration;
+    field_ = mode == contact ? in_its_norm(Field::of(constants, rate_)) : Field::of(constants, rate_);
     stop_ = soft_stop_at<double>(stops_, side);
-    const double size = std::max(least_bound_, size_in(field_)) * std::exp(field_.drift * length);
+    const double size = std::max(least_bound_, size_in(field_)) * field_.growth(length);
     bound_ = approached_ == Side::none ? size : std::max(bound_, size);
     begun_ = true;
     if (mode_ == unknown) {
@@ -91,24 +94,24 @@ class SoftNeighbourhood : public Neighbourhood {
     holds_ = holds_ && mode_ == mode && bound_ / field_.weight < stops_.upper - stops_.lower;  // none meets the other
     const double from = std::max(0.0, clear_from_ - begin);
     if (holds_ && approached_ == Side::none && from < length) keep_margin(arc, begin, from, length);
-    last_ = arc.at(length);
-    advance(constants, length);
+    last_ = in_units(arc.at(duration));
+    advance(constants, duration);
   }
 
   /// Finds whether the stop's force keeps its sign for all, from the time `from` of this arc on, or comes near 0.
   template <class A>
   void keep_margin(const A& arc, double begin, double from, double length) {
     const double one = stop_.into(mode_ == contact ? 1.0 : -1.0), relaxation = stop_.relaxation();
-    const Margin<double> margin{0.0, one, one * relaxation};
+    const Margin<double> margin{0.0, one, one * relaxation / rate_};
     const double less = one * bound_ * norm(1 / field_.weight, relaxation);
-    Motion<double> start = from > 0 ? arc.at(from) : arc.start();
+    Motion<double> start = from > 0 ? arc.at(from / rate_) : arc.start();
     start.offset -= less;  // the margin less the bound is that of a stop a little farther away
     holds_ = margin.of(start) > 0;
     if (!holds_) return;
     const auto crossing =
-        first_crossing(A(arc.constants(), start, arc.anchor() + less), std::array{margin}, length - from);
+        first_crossing(A(arc.constants(), start, arc.anchor() + less), std::array{margin}, (length - from) / rate_);
     holds_ = crossing.resolved;
-    if (crossing.margin == 0) approached_ = stop_.side, approached_at_ = begin + from + crossing.elapsed;
+    if (crossing.margin == 0) approached_ = stop_.side, approached_at_ = begin + from + rate_ * crossing.elapsed;
   }
 
   /// The instant at which the observed motion crosses a surface g = depth + q depth' = 0, and its motion there.
@@ -185,8 +188,8 @@ class SoftNeighbourhood : public Neighbourhood {
   /// Takes the motions out of the region beyond a soft stop's position, where nothing happens to them.
   template <class A>
   void leave(const A& arc, double begin) {
-    const Motion<double>& start = arc.start();
-    field_ = Field::of(arc.constants()), leaving_ = true;
+    const Motion<double> start = in_units(arc.start());
+    field_ = Field::of(arc.constants(), rate_), leaving_ = true;
     holds_ = mode_ == outrun && approached_ == Side::none &&
              depart({begin, std::abs(start.v), 0, std::abs(start.a), std::max(0.0, clear_from_ - begin)});
   }

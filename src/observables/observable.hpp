@@ -146,7 +146,7 @@ struct ObservedSpan {
   double turns = 0.0;           ///< its length in forcing periods; without forcing in 2 pi
   double base_frequency = 0.0;  ///< of harmonics
   double base_turns = 0.0;      ///< turns of the base frequency in it
-  double uncertainty = 0.0;     ///< of displacements and velocities: rounding, and after a repeat its tolerance
+  double uncertainty = 0.0;     ///< of displacements: rounding, and after a repeat its tolerance (`uncertainty_of`)
   double theta = 0.0;           ///< forcing phase at its beginning, as the scene gives it, rad
   bool periodic = false;        ///< it is a period of the motion
   bool transient = false;       ///< it begins at the start of the scene

@@ -13,12 +13,13 @@ namespace clatter::observables {
 /// reversal that just sticks is none of these, since a stick then begins as briefly as one likes.
 class RoughGrazes {
  public:
-  /// `rounding` bounds the errors of displacements and velocities.
+  /// `rounding` bounds the errors of displacements.
   RoughGrazes(const Scene& scene, double rounding)
       : stops_(rigid_ones(scene.stops)),
         friction_(scene.friction),
-        stiffness_(std::abs(scene.oscillator.stiffness)),
-        rounding_(rounding) {}
+        rounding_(rounding),
+        rounding_of_push_(rounding * (pace_of(scene.oscillator) * pace_of(scene.oscillator) +
+                                      std::abs(scene.oscillator.stiffness))) {}
 
   [[nodiscard]] bool is_sought() const { return has_friction(friction_); }
 
@@ -53,12 +54,12 @@ class RoughGrazes {
     if (gap <= rounding_) grazes_ = true;
     const double left = std::abs(push) - friction_.static_level;
     const bool jumps = friction_.static_level > friction_.kinetic;
-    if (jumps && std::abs(left) <= rounding_ * (1 + stiffness_)) grazes_ = true;
+    if (jumps && std::abs(left) <= rounding_of_push_) grazes_ = true;
   }
 
   Stops stops_;
   Friction friction_;
-  double stiffness_, rounding_;
+  double rounding_, rounding_of_push_;      ///< of displacements, of the other forces
   double acceleration_ = 0.0, push_ = 0.0;  ///< at the end of the last arc; the second without friction
   double until_ = -1.0;                     ///< end of the last stick
   bool grazes_ = false;

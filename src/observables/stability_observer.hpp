@@ -20,17 +20,18 @@ class Stability::Observer {
  public:
   using Complex = std::complex<double>;
 
-  Observer(const Settings&, const ObservedSpan& span) : Observer(span.scene.stops, span.uncertainty) {
+  Observer(const Settings&, const ObservedSpan& span)
+      : Observer(span.scene.stops, span.uncertainty, pace_of(span.scene.oscillator)) {
     if (has_friction(span.scene.friction)) graze_matters_ = false, rough_.emplace(span.scene, span.uncertainty);
     if (!has_loose_mass(span.scene.loose)) return;
     graze_matters_ = false, loose_.emplace(span.scene.oscillator, span.scene.loose);
     if (span.periodic) walls_.emplace(span.scene.loose, span.uncertainty);
   }
 
-  /// `rounding` bounds the errors of displacements and velocities.
-  Observer(const Stops& stops, double rounding)
+  /// `rounding` bounds the errors of displacements, and of velocities over the rate `pace`.
+  Observer(const Stops& stops, double rounding, double pace = 1)
       : tangent_(stops),
-        nearby_(stops, motion::Ellipse::disc(rounding), rounding, true),
+        nearby_(stops, motion::Ellipse::disc(rounding), rounding, true, pace),
         graze_matters_(!has_soft_stop(stops)) {}
 
   template <class A>

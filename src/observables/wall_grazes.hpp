@@ -13,7 +13,7 @@ namespace clatter::observables {
 /// within rounding of it, or it does turn back there.
 class WallGrazes {
  public:
-  /// `rounding` bounds the errors of displacements and velocities.
+  /// `rounding` bounds the errors of displacements.
   WallGrazes(const LooseMass& loose, double rounding)
       : inner_{.lower = loose.lower + rounding, .upper = loose.upper - rounding}, rounding_(rounding) {}
 

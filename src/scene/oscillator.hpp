@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -25,6 +26,15 @@ template <class Number = double>
 [[nodiscard]] Number natural_frequency(const BasicOscillator<Number>& oscillator) {
   using std::abs, std::sqrt;
   return sqrt(Number(abs(oscillator.stiffness)));
+}
+
+/// The rate by which velocities are divided before they are compared with displacements: 1, unless the spring and the
+/// force, of which the faster one counts, are both much slower, or one is much faster.
+[[nodiscard]] inline double pace_of(const Oscillator& oscillator) {
+  constexpr double much = 16;
+  const double force = oscillator.forcing != 0 ? oscillator.frequency : 0;
+  const double pace = std::max(natural_frequency(oscillator), force);
+  return pace > much || (pace > 0 && pace * much < 1) ? pace : 1;
 }
 
 /// The displacement at which the spring balances the load; 0 without a spring.

@@ -37,9 +37,10 @@ class FirstEvent {
   std::optional<double> time_{};
 };
 
-/// How far displacements and velocities of a motion may be off, by rounding and by the tolerance of its repeat.
+/// How far displacements of a motion may be off, by rounding and by the tolerance of its repeat; velocities, over
+/// `pace_of` the oscillator, as much.
 [[nodiscard]] inline double uncertainty_of(const Scene& scene, const motion::State<double>& at, double tolerance) {
-  double size = std::abs(at.x) + std::abs(at.v);
+  double size = std::abs(at.x) + std::abs(at.v) / pace_of(scene.oscillator);
   for (const double stop : {scene.stops.lower, scene.stops.upper, scene.loose.lower, scene.loose.upper})
     if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
   return (64 * epsilon<double>() + tolerance) * size;
@@ -54,7 +55,7 @@ class CycleEnds {
   using State = motion::State<typename I::Number>;
 
  public:
-  /// `uncertainty`: of displacements and velocities.
+  /// `uncertainty`: of displacements (`uncertainty_of`).
   CycleEnds(I& integrator, const Scene& scene, double uncertainty)
       : integrator_(integrator), scene_(scene), uncertainty_(uncertainty) {}
 
@@ -94,7 +95,7 @@ class CycleEnds {
   [[nodiscard]] bool may_meet(const State& state, double soon) const {
     const auto [gap, speed] = approach(state);
     if (speed == 0 || state.chatters || state.loose.pressed) return false;
-    const bool nearly_stands = integrator_.is_rough() && speed <= 4 * uncertainty_;
+    const bool nearly_stands = integrator_.is_rough() && speed <= 4 * uncertainty_ * pace_of(scene_.oscillator);
     return nearly_stands || state.within != Side::none || gap <= 2 * soon * speed;
   }
   template <class Observer>

@@ -47,7 +47,7 @@ class ForcedSearch {
         begins_before_(scene.oscillator.forcing),
         beyond_contact_(scene, integrator.period()),
         watch_(integrator.stops()),
-        map_(integrator, time.tolerance) {
+        map_(integrator, time.tolerance, pace_of(scene.oscillator)) {
     near_enough_.fill(nearest_first);
   }
 

@@ -21,8 +21,9 @@ namespace clatter::steady {
 template <Effects E>
 class StroboscopicMap {
  public:
-  StroboscopicMap(stepping::Exact<double, E>& integrator, double tolerance)
-      : integrator_(integrator), watch_(integrator.stops()), tolerance_(tolerance) {}
+  /// `pace` is the rate by which velocities are divided before they are compared with displacements (`pace_of`).
+  StroboscopicMap(stepping::Exact<double, E>& integrator, double tolerance, double pace = 1)
+      : integrator_(integrator), watch_(integrator.stops()), tolerance_(tolerance), pace_(pace) {}
 
   /// The most times that an attempt follows all periods of a motion: the approach, each iteration, the proof.
   static constexpr std::size_t most_iterations = 4, most_turns = 1 + most_iterations + 1;
@@ -118,14 +119,14 @@ class StroboscopicMap {
   [[nodiscard]] std::optional<MapOrbit> attracting(const motion::State<double>& start, const MapOrbit& orbit,
                                                    const motion::State<double>& motion) {
     if (!(spectral_radius(orbit.derivative()) < 1) || !inside(start)) return std::nullopt;
-    const ContractionNorm measure(orbit.derivative());
-    const double rounding = 64 * epsilon<double>() * size_of(start);
-    const double radius = measure.of(between(start, motion)) * (1 + 1e-9) + rounding;
+    const ContractionNorm measure(at_pace(orbit.derivative()));
+    const double rounding = 64 * epsilon<double>() * std::max(std::abs(start.x), std::abs(start.v) / pace_);
+    const double radius = measure.of(at_pace(between(start, motion))) * (1 + 1e-9) + rounding;
     auto neighbourhood = neighbourhood_of(measure.disc(radius), rounding);
     std::optional<MapOrbit> attractor = follow(start, orbit.periods, neighbourhood);
     if (!attractor || !neighbourhood.holds()) return std::nullopt;
-    const double left =
-        measure.of(neighbourhood.first_order()) + measure.of(neighbourhood.remainder()) + measure.of(attractor->gap());
+    const double left = measure.of(neighbourhood.first_order()) + measure.of(neighbourhood.remainder()) +
+                        measure.of(at_pace(attractor->gap()));
     if (!(left < radius)) return std::nullopt;
     const double rounds = std::log(between(start, motion).size() / (tolerance_ * size_of(start))) /
                           -std::log(spectral_radius(orbit.derivative()));
@@ -133,21 +134,30 @@ class StroboscopicMap {
     return attractor;
   }
 
+  /// A change, and a map of changes, of (x, v/`pace_`).
+  [[nodiscard]] motion::Perturbation at_pace(const motion::Perturbation& change) const {
+    return {change.x, change.v / pace_};
+  }
+  [[nodiscard]] motion::Jacobian<double> at_pace(const motion::Jacobian<double>& map) const {
+    return {map[0], map[1] * pace_, map[2] / pace_, map[3]};
+  }
+
   /// The proof for the motions of an ellipse.
   [[nodiscard]] auto neighbourhood_of(const motion::Ellipse& start, double rounding) const {
     const Stops& stops = integrator_.stops();
     if constexpr (E.friction) {
-      return motion::RoughNeighbourhood(stops, start, rounding, integrator_.static_level());
+      return motion::RoughNeighbourhood(stops, start, rounding, integrator_.static_level(), pace_);
     } else if constexpr (E.soft) {
-      return motion::SoftNeighbourhood(stops, start, rounding);
+      return motion::SoftNeighbourhood(stops, start, rounding, false, pace_);
     } else {
-      return motion::Neighbourhood(stops, start, rounding);
+      return motion::Neighbourhood(stops, start, rounding, false, pace_);
     }
   }
 
   stepping::Exact<double, E>& integrator_;
   PassageObserver watch_;
   double tolerance_;
+  double pace_;
   std::size_t simulated_ = 0;
 };
 
