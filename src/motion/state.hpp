@@ -33,6 +33,8 @@ struct State {
   bool pressed = false;         ///< that stop pushes the mass; false: the mass outruns it
   bool chatters = false;        ///< flies in a chatter that is summed, so its impacts aren't told
   LooseState<Number> loose{};   ///< of a loose mass, if there is one; `released`: its wall releases it
+  Number reach{};               ///< under friction: the longest way ahead in the present flight, by which its rounding
+                                ///< is judged wherever a section cuts it
 };
 
 /// Motion at one instant of an arc.

@@ -131,13 +131,18 @@ class Flights : public IntegratorBase<N, E> {
     return crossing.margin == 1 || (crossing.margin > 1 && crossing.motion.v == 0);
   }
   /// Of the gap to a rigid stop at the end of a slip. Without a spring, and with a force that is the same both ways, a
-  /// mass that a stop has released comes back to it exactly without speed: it then rests, whatever rounding says.
-  [[nodiscard]] Number rounding_of_gap(const motion::State<Number>& state, const motion::Stop<Number>& stop) const {
-    using std::abs;
-    if (is_soft(this->stops(), stop.side) || !this->finite(stop.position)) return Number(0);
-    const Number size = state.from_stop == stop.side ? Number(abs(state.offset))
-                                                     : Number(abs(stop.position - state.x) + abs(stop.position));
-    return 64 * epsilon<Number>() * size;
+  /// mass that a stop has released comes back to it exactly without speed: it then rests, whatever rounding says. A
+  /// flight that a section cuts has its rounding from the beginning.
+  [[nodiscard]] Number rounding_of_gap(motion::State<Number>& state, const motion::Stop<Number>& stop) const {
+    using std::abs, std::max;
+    const bool begins = state.v == 0 || (state.from_stop != Side::none && state.offset == 0);
+    const bool may_touch = !is_soft(this->stops(), stop.side) && this->finite(stop.position);
+    if (begins || !may_touch) state.reach = Number(0);
+    if (!may_touch) return Number(0);
+    const Number way = state.from_stop == stop.side ? Number(abs(state.offset))
+                                                    : Number(abs(stop.position - state.x) + abs(stop.position));
+    state.reach = max(state.reach, way);
+    return 64 * epsilon<Number>() * state.reach;
   }
 
   /// One arc with these constants, up to the first margin that falls to 0.
