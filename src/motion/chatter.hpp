@@ -122,8 +122,11 @@ template <class Number, Effects E>
                                                          const Number& kinetic, const Number& static_level,
                                                          const Number& rebound, const Number& low,
                                                          const Number& accuracy) {
-  using std::abs, std::max;
-  if (!(press.force > static_level) || rebound * (rebound / press.force) > 2 * low) return std::nullopt;
+  using std::abs, std::max, std::sqrt;
+  if (!(press.force > static_level)) return std::nullopt;
+  const Number up = press.force + kinetic, flight = rebound / up + rebound / sqrt(up * (press.force - kinetic));
+  if (flight <= epsilon<Number>() * constants.period) return Number(0);  // too short to advance time
+  if (rebound * (rebound / press.force) > 2 * low) return std::nullopt;
   const ChatterSum<Number> sum = rubbing_chatter_sum(constants, stop, press, kinetic, rebound);
   if (!(sum.time > 0) || !(sum.bound <= accuracy * max(sum.time, Number(1 / constants.rate)))) return std::nullopt;
   const Number falls = (abs(press.rate) + abs(constants.f) * constants.nu * constants.nu * sum.time) * sum.time;

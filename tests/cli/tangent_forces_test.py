@@ -1,12 +1,14 @@
-"""Forces that touch zero and don't pass it, and what is told of a mass that is held for good.
+"""Forces that touch zero and don't pass it, or are next to nothing, and what is told of a mass that is held for good.
 
 Environment: CLATTER, the program.
 """
 
+import random
 import unittest
 
 import h5py
 import numpy as np
+from random_scenes import logarithmic
 from runs import RunTest, toml
 
 PRESSED = {
@@ -46,6 +48,32 @@ class TangentForces(RunTest):
             )
             with h5py.File(self.run_clatter(config, options=["--force"])) as file:
                 self.assertEqual([file["impact_word"][0], file["motion_word"][0]], [b"(S)"] * 2)
+
+    def ends(self, keys, points, f):
+        """What is told of points that have these keys, under a force of this size."""
+        sweep = {key: list(values) for key, values in zip(keys, zip(*points))} | {"linked": f"'{', '.join(keys)}'"}
+        config = toml(
+            scene={"f": f, "stop_upper": "inf"},
+            time={"max_impacts": 2000},
+            observe={"extrema": True, "word": True},
+            sweep=sweep,
+        )
+        with h5py.File(self.run_clatter(config, options=["--force"])) as file:
+            return [file[name][()] for name in ("status", "impact_word", "x_min", "x_max")]
+
+    def test_a_force_of_nothing_lets_a_mass_come_to_rest_on_a_stop_under_friction(self):
+        """Its chatter is over once a flight is too short to advance time; beside the force no height is low."""
+        draw = random.Random(300)
+        keys = "h stiffness load x0 v0 stop_lower R friction nu".split()
+        pressed = []
+        for _ in range(100):
+            place = [draw.choice([0.0, draw.uniform(0, 0.5)]), draw.choice([0.0, 1.0]), -draw.uniform(0.5, 3)]
+            start = [draw.uniform(0, 1), draw.uniform(-1, 1), 0.0, draw.uniform(0.1, 0.95)]
+            pressed.append([*place, *start, logarithmic(draw, 1e-8, 0.4), draw.uniform(0.3, 3)])
+        for f in (0.0, 1e-320, 1e-300, -1e-170, 1e-100, 1e-30):
+            status, word, least, greatest = self.ends(keys, pressed, f)
+            self.assertEqual(set(zip(status, word)), {(0, b"(L)")}, f)
+            np.testing.assert_array_equal([least, greatest], 0)
 
 
 if __name__ == "__main__":
