@@ -90,8 +90,7 @@ class Follower {
     if (!closed && !record_.is_full()) walk(equations, start, {});
   }
 
-  /// A branch with one contact with a soft stop, or interruption of one, or impact before a stick, more than its
-  /// origin.
+  /// A branch with one contact with a soft stop, or interruption of one, or slip to a stick, more than its origin.
   void follow_opened(const Waiting& from) {
     const auto begun = opened(any_equations(), from.scene, from.orbit, *from.opens, settings_.tolerance);
     const OrbitEquations equations = equations_for(begun ? begun->orbit : from.orbit);
@@ -316,7 +315,7 @@ class Follower {
   void wait_with(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, std::size_t special, int came = 0) {
     waiting_.push_back({scene, orbit, {}, special, generation_});
     waiting_.back().came = came;
-    if (orbit.impacts[graze].event != EventKind::impact) waiting_.back().opens = graze;
+    if (orbit.impacts[graze].event != EventKind::impact) waiting_.back().opens = {Opening::Kind::contact, graze};
   }
   void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special, int came = 0) {
     if (orbit.size() == 0 && orbit.pressed == Side::none) {

@@ -1,6 +1,7 @@
 #include "branches/halt_end.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "branches/walk/slip_violation.hpp"
@@ -25,6 +26,21 @@ double outside(double value, double one, double other) {
   const auto [low, high] = std::minmax(one, other);
   const double off = std::max(low - value, value - high);
   return off <= rounding ? 0.0 : off;
+}
+
+/// Whether a stick on a stop comes after a chatter there: several impacts, ever slower.
+bool ends_chatter(const Orbit& orbit, std::size_t stick) {
+  constexpr int several = 4;
+  const Orbit last = orbit.from_event((stick + 1) % orbit.size());
+  double slower = 0.0;
+  int impacts = 0;
+  for (std::size_t i = last.size() - 1; i-- > 0;) {
+    const OrbitImpact& event = last.impacts[i];
+    if (halts(event.event) && event.side == orbit.heading_before(stick)) continue;
+    if (halts(event.event) || event.side != orbit.heading_before(stick) || !(std::abs(event.before) > slower)) break;
+    slower = std::abs(event.before), ++impacts;
+  }
+  return impacts >= several;
 }
 
 }  // namespace
@@ -63,12 +79,16 @@ void end_in_change(const FrictionEnd& end, const BranchPoint& last_good, Record&
   at.scene = exact.scene, at.orbit = with_form(change.before.value_or(HaltForm::stick));
   const BranchPoint& last = change.before && !exact.joins ? at : last_good;
   record.add(last);
+  // beyond the limit the chatter ends in a rest on the stop, which isn't followed under friction
+  if (change.opens == Opening::Kind::rebound && ends_chatter(exact.orbit, exact.impact) &&
+      record.is_of_cascade(last, 1e-4))
+    return record.end(last, "chatter limit");
   const auto [special, is_new] = record.note(change.kind, at, change.condition);
   record.end(last, std::string(name_of(change.kind)));
-  const bool jumps = change.strikes && slips_on_from_stop(exact.scene, at.orbit, exact.impact);
-  if (!is_new || jumps || !(change.beyond || change.strikes)) return no_longer_waits(waiting, special, last.orbit);
+  const bool jumps = change.opens == Opening::Kind::rebound && slips_on_from_stop(exact.scene, at.orbit, exact.impact);
+  if (!is_new || jumps || !(change.beyond || change.opens)) return no_longer_waits(waiting, special, last.orbit);
   waiting.push_back({exact.scene, with_form(change.beyond.value_or(HaltForm::stick)), {}, special, generation});
-  if (change.strikes) waiting.back().opens = exact.impact;
+  if (change.opens) waiting.back().opens = {*change.opens, exact.impact};
   if (exact.joins && change.before) waiting.push_back({exact.scene, at.orbit, {}, special, generation});
 }
 

@@ -125,9 +125,9 @@ double Record::way_to(const BranchPoint& last) const {
   return value_of(last.scene, axes_[0].parameter) - value_of(first->scene, axes_[0].parameter);
 }
 
-bool Record::is_of_cascade(const BranchPoint& last) const {
+bool Record::is_of_cascade(const BranchPoint& last, double within) const {
   const double way = way_to(last);
-  return last.orbit.size() >= 8 && way != 0 && std::abs(way) <= 1e-5 * axes_[0].unit;
+  return last.orbit.size() >= 8 && way != 0 && std::abs(way) <= within * axes_[0].unit;
 }
 
 std::optional<std::size_t> Record::branch_of(const std::string& word, double value) const {

@@ -47,8 +47,9 @@ class Record {
 
   /// How far, in the first parameter, the present branch has come from its first point to a point.
   [[nodiscard]] double way_to(const BranchPoint& last) const;
-  /// Whether the present branch ends as one of ever more grazes, in ever shorter steps, near a chatter limit.
-  [[nodiscard]] bool is_of_cascade(const BranchPoint& last) const;
+  /// Whether the present branch ends as one of ever more grazes, in ever shorter steps, near a chatter limit: it is
+  /// shorter than a part of the range.
+  [[nodiscard]] bool is_of_cascade(const BranchPoint& last, double within = 1e-5) const;
 
   /// The branch that has motion of these letters at a value of the first parameter, between two of its points.
   [[nodiscard]] std::optional<std::size_t> branch_of(const std::string& word, double value) const;

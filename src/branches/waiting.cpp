@@ -10,12 +10,38 @@
 
 namespace clatter::branches {
 
+namespace {
+
+/// The events of a motion in their order, whichever comes first: its word, or under dry friction a letter for each,
+/// since many motions with the same impacts meet where their halts change.
+std::string events_of(const Orbit& orbit) {
+  if (!orbit.halts()) return orbit.word();
+  std::string letters;
+  for (const OrbitImpact& event : orbit.whole().impacts) {
+    const char letter = event.event == EventKind::stick ? 's' : event.event == EventKind::reversal ? 'r' : 'i';
+    letters += {letter, event.side == Side::upper ? '+' : '-'};
+  }
+  std::string first = letters;
+  for (std::size_t i = 0; i < letters.size(); i += 2)
+    std::ranges::rotate(letters, letters.begin() + 2), first = std::min(first, letters);
+  return first;
+}
+
+/// Those of a branch that waits, beyond the special point.
+std::string events_of(const Waiting& waiting) {
+  constexpr double any = 1e-3;  // rad
+  if (!waiting.opens || waiting.opens->kind == Opening::Kind::contact) return events_of(waiting.orbit);
+  return events_of(with_opening(waiting.scene, waiting.orbit, *waiting.opens, any));
+}
+
+}  // namespace
+
 void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Orbit& orbit) {
-  const std::string word = orbit.word(), image = orbit.mirror_image().word();
+  const std::string events = events_of(orbit), image = events_of(orbit.mirror_image());
   std::erase_if(waiting, [&](const Waiting& one) {
     if (one.special != special) return false;
-    const std::string other = one.orbit.word();
-    return other == word || (other == image && is_symmetric(one.scene));
+    const std::string other = events_of(one);
+    return other == events || (other == image && is_symmetric(one.scene));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "branches/record.hpp"
+#include "branches/walk/opening.hpp"
 
 namespace clatter::branches {
 
@@ -18,9 +19,7 @@ struct Waiting {
   int heading = 0;                       ///< up or down the parameter; 0: both ways
   std::optional<std::size_t> cascade{};  ///< the branch that came near it through ever more grazes
   int cascade_side = 0;                  ///< on which that lies: up or down the parameter
-  /// The event with which a contact with a soft stop begins or is interrupted, or the stick before which a stop is
-  /// struck.
-  std::optional<std::size_t> opens{};
+  std::optional<Opening> opens{};        ///< in the orbit, which is that of the special point
   /// The heading, up or down the parameter, of the branch that came to the graze it begins at: if it turns back there,
   /// it is born. 0: it goes on whatever its heading is.
   int came = 0;

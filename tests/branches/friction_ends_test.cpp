@@ -67,7 +67,9 @@ TEST(EndsUnderFriction, are_grazes_whatever_violation_is_found_first) {
                          {"grazing-sliding", -0.37334484187},
                          {"grazing-sliding", 0.37334484187},
                          {"switching-sliding", -0.38865813465},
-                         {"switching-sliding", 0.38865813465}});
+                         {"switching-sliding", 0.38865813465},
+                         {"crossing-sliding", -0.43378910176},
+                         {"crossing-sliding", 0.43378910176}});
 }
 
 /// With a static level above the kinetic one a slip whose velocity just comes to 0 goes on by the kinetic level.
@@ -79,15 +81,36 @@ TEST(EndsUnderFriction, are_grazing_slidings_of_a_slip_that_goes_on) {
 }
 
 /// Motion that is its own mirror image, and doesn't reach the only stop, gains a stick in each half at once: each alone
-/// may come earlier or later, and no step led off there. A mirror image of the stop changes nothing.
-TEST(EndsUnderFriction, of_symmetric_motion_are_alike_with_one_stop_and_two) {
+/// may come earlier or later, and no step led off there. A mirror image of the stop changes nothing. Nor does the
+/// motion that the branches begin with: short slips begin from nothing where they vanish on the way back, at the
+/// switching- sliding on the way up, and at the release tangency, which is an early release, on the way down.
+TEST(EndsUnderFriction, of_symmetric_motion_are_alike_with_one_stop_and_two_from_any_start) {
   sweep::GivenProblem problem = symmetric_stops(0.02, 0.3665, 9.0, 0.06);
-  for (const double lower : {-infinity, -9.0}) {
-    problem.stops = {lower, 9.0, lower == -infinity ? 1.0 : 0.6, 0.6};
-    expect_special_points(problem, Parameter("nu"), {0.26, 0.5},
-                          {{"grazing-sliding", 0.362817539803},
-                           {"release tangency", 0.320559909813},
-                           {"switching-sliding", 0.326533670852}});
+  for (const double lower : {-infinity, -9.0})
+    for (const double nu : {0.3665, 0.27, 0.323, 0.345}) {
+      problem.stops = {lower, 9.0, lower == -infinity ? 1.0 : 0.6, 0.6};
+      problem.oscillator.frequency = nu;
+      expect_special_points(problem, Parameter("nu"), {0.26, 0.5},
+                            {{"grazing-sliding", 0.362817539803},
+                             {"switching-sliding", 0.326533670852},
+                             {"release tangency", 0.320559909813},
+                             {"grazing-sliding", 0.309261206419},
+                             {"crossing-sliding", 0.307355708293}});
+    }
+}
+
+/// Between stops, too: with two impacts and a stick on the way to each of them, begun on any of the branches.
+TEST(EndsUnderFriction, are_those_of_the_branches_that_meet_there_from_any_of_them) {
+  sweep::GivenProblem problem;
+  problem.oscillator = {0.0, 1.0, 0.9416122576107108, 0.0, 1.0};
+  problem.friction.kinetic = 0.049988928270946094;
+  const double R = 0.6957346135498629, gap = 0.4638660160282706;
+  problem.stops = {-gap, gap, R, R};
+  for (const auto& [nu, x0] : {std::pair(0.9416, -0.205), std::pair(1.054, -0.2), std::pair(1.0595, -0.1)}) {
+    problem.oscillator.frequency = nu, problem.start = {x0, 0.9};
+    expect_special_points(
+        problem, Parameter("nu"), {0.8, 1.0828},
+        {{"crossing-sliding", 1.0478711395}, {"switching-sliding", 1.05781020994}, {"grazing-sliding", 1.06114629316}});
   }
 }
 

@@ -117,9 +117,10 @@ TEST(Sticking, goes_on_past_the_graze_at_which_a_slip_vanishes) {
   for (const std::array range : {std::array{0.98, 1.08}, {0.97, 1.1}, {0.74, 1.5}}) {
     const Branches found = follow_branches(problem, {.along = Parameter("nu"), .range = range});
     EXPECT_EQ(std::ranges::count(found.ends, true, &BranchEnd::failed), 0) << range[0];
-    const auto graze = std::ranges::find(found.special, SpecialKind::graze, &SpecialPoint::kind);
-    ASSERT_NE(graze, found.special.end());
-    EXPECT_NEAR(graze->at.scene.oscillator.frequency, 1.00375011065766, 1e-12);
+    EXPECT_TRUE(std::ranges::any_of(found.special, [](const SpecialPoint& special) {
+      return special.kind == SpecialKind::graze &&
+             std::abs(special.at.scene.oscillator.frequency - 1.00375011065766) <= 1e-12;
+    })) << range[0];
     const double lowest = std::ranges::min(found.points, {}, [](const BranchPoint& point) {
                             return point.scene.oscillator.frequency;
                           }).scene.oscillator.frequency;

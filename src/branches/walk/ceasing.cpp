@@ -6,14 +6,6 @@
 namespace clatter::branches {
 namespace {
 
-/// The phase near another one at which the force pushes the most to a side.
-double crest_near(const SceneNumbers<double>& p, Side side, double phase) {
-  constexpr double turn = 2 * std::numbers::pi;
-  const LeadingForce<double> force = p.force();
-  const double crest = (sign_of(side) * force.amplitude > 0 ? turn : -turn) / 4 - force.lead;
-  return crest + turn * std::round((phase - crest) / turn);
-}
-
 /// The mass at rest where the spring is, if there is one.
 Orbit at_rest(const FollowedScene& scene, Orbit orbit) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
@@ -27,6 +19,13 @@ Orbit at_rest(const FollowedScene& scene, Orbit orbit) {
 }
 
 }  // namespace
+
+double crest_near(const SceneNumbers<double>& p, Side side, double phase) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const LeadingForce<double> force = p.force();
+  const double crest = (sign_of(side) * force.amplitude > 0 ? turn : -turn) / 4 - force.lead;
+  return crest + turn * std::round((phase - crest) / turn);
+}
 
 std::optional<ExactGraze> where_motion_ceases(const OrbitEquations& equations, FollowedScene near, const Orbit& orbit,
                                               double within) {

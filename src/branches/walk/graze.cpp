@@ -10,13 +10,6 @@
 namespace clatter::branches {
 namespace {
 
-/// Acceleration at an event, that of the free motion.
-double acceleration(const SceneNumbers<double>& p, const OrbitImpact& event, double offset) {
-  const LeadingForce<double> force = p.force();
-  return force.amplitude * std::sin(event.phase + force.lead) + p.oscillator.load -
-         2 * p.oscillator.damping * event.before - p.oscillator.stiffness * (p.position(event.side) + offset);
-}
-
 std::optional<ExactGraze> solved(const Equations& equations, const FollowedScene& near, const Graze& graze,
                                  double within, double tolerance) {
   const OrbitEquations there = equations(graze.orbit, {graze.condition});
@@ -53,76 +46,6 @@ Graze once_of(Graze graze, double slow, bool symmetric_scene) {
   return graze;
 }
 
-/// An orbit with a graze as if a contact or an interruption that lasts for `advance` of the phase began and ended
-/// there.
-Orbit with_short(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, double advance) {
-  const SceneNumbers<double> p = numbers_of<double>(scene);
-  const OrbitImpact middle = orbit.impacts[graze];
-  const double relaxation = p.soft_stop(middle.side).relaxation(), time = advance / p.oscillator.frequency;
-  OrbitImpact begin = middle, end = middle;
-  const double a = acceleration(p, middle, -relaxation * middle.before);
-  double before = time / 2;  // from the beginning to the extremum
-  if (middle.event == EventKind::separation && middle.before == 0) {
-    // v t + a t^2/2 + r (v + a t) = 0, the end of a contact that begins with v: the mass turns after the time -v/a
-    before = time * (time / 2 + relaxation) / (time + relaxation);
-    begin.event = EventKind::touch;
-  } else {
-    begin.event = middle.event == EventKind::separation ? EventKind::renewal : EventKind::separation;
-    if (relaxation == 0 && presses(middle.event)) end.event = EventKind::touch;
-  }
-  begin.phase = middle.phase - p.oscillator.frequency * before, begin.before = middle.before - a * before;
-  end.phase = begin.phase + advance, end.before = begin.before + a * time;
-  Orbit out = orbit;
-  out.impacts[graze] = end;
-  return out.with(begin, graze);
-}
-
-/// An orbit with a stick on a stop as if the mass struck that first, and slipped back for `advance` of the phase.
-Orbit with_rebound(const FollowedScene& scene, const Orbit& orbit, std::size_t stick, double advance) {
-  const Side stop = orbit.heading_before(stick);
-  const SceneNumbers<double> p = numbers_of<double>(scene);
-  OrbitImpact impact{stop, orbit.impacts[stick].phase}, halt = orbit.impacts[stick];
-  const double a = with_arcs(
-      scene, [&]<Effects E>() { return Flights<double, E>{p}.acceleration(halt.place, halt.phase, opposite(stop)); });
-  const double time = advance / p.oscillator.frequency;
-  impact.before = a * time / p.restitution(stop);
-  halt.phase += advance, halt.place -= a * time * time / 2;
-  Orbit out = orbit;
-  out.impacts[stick] = halt;
-  return out.with(impact, stick);
-}
-
-/// Motion between the stops with a contact, or an interruption, that begins with event `first`.
-struct Lasting {
-  Orbit orbit;
-  Vector at;
-  std::size_t first;
-};
-/// That which lasts for `advance` of the phase, in place of a graze. Motion that is symmetric about another place than
-/// x = 0 has two contacts at once.
-std::optional<Lasting> with_lasting(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
-                                    std::size_t graze, double advance, double tolerance) {
-  const bool rebounds = orbit.impacts[graze].event == EventKind::stick;
-  Lasting lasting{
-      rebounds ? with_rebound(scene, orbit, graze, advance) : with_short(scene, orbit, graze, advance), {}, graze};
-  for (int contacts = 1; contacts <= 2; ++contacts) {
-    const OrbitEquations there =
-        equations(lasting.orbit, {{.kind = Condition::Kind::duration, .impact = lasting.first, .duration = advance}});
-    auto at = solution(there, there.unknowns_of(scene, lasting.orbit), tolerance);
-    if (!at) return std::nullopt;
-    const auto violated = violation(there, *at);
-    lasting.at = *std::move(at);
-    if (!violated) return lasting;
-    if (rebounds || violated->kind != Violation::Kind::passes_through || violated->turning.event == EventKind::impact)
-      return std::nullopt;
-    const std::size_t second = violated->impact + 1;
-    const Orbit both = there.orbit_at(lasting.at).with(violated->turning, second);
-    lasting.orbit = with_short(scene, both, second, advance);
-    if (second <= lasting.first) lasting.first += 2;
-  }
-  return std::nullopt;
-}
-
 /// Whether one graze is nearer to a scene than another one, by more than rounding. All slow contacts of a motion may
 /// vanish at once, or the other ones are slow there, too, and the motion without them grazes somewhere near.
 bool is_nearer(const ExactGraze& one, const ExactGraze& other, const FollowedScene& scene,
@@ -156,25 +79,6 @@ std::optional<Vector> direction_into_motion(const OrbitEquations& equations, con
       const auto at = corrected(equations, sum(from, s, direction), direction, tolerance);
       if (at && !violation(equations, *at)) return direction;
     }
-  return std::nullopt;
-}
-
-std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
-                             std::size_t graze, double tolerance) {
-  const SceneNumbers<double> p = numbers_of<double>(scene);
-  const OrbitImpact& event = orbit.impacts[graze];
-  const double of_stop = halts(event.event) ? 0.0 : p.soft_stop(event.side).stiffness;
-  const double rate = std::max(p.oscillator.frequency, std::sqrt(std::abs(p.oscillator.stiffness) + of_stop));
-  for (const double turned_by : {1e-3, 1e-2, 1e-4}) {
-    const auto lasting =
-        with_lasting(equations, scene, orbit, graze, p.oscillator.frequency / rate * turned_by, tolerance);
-    if (!lasting) continue;
-    const OrbitEquations there = equations(lasting->orbit, {});
-    Vector longer(there.unknowns(), 0.0);
-    longer[there.phase_of(lasting->first)] = -1;
-    longer[there.phase_of((lasting->first + 1) % lasting->orbit.size())] = 1;
-    if (auto along = tangent(there, lasting->at, longer)) return Opened{lasting->orbit, lasting->at, *std::move(along)};
-  }
   return std::nullopt;
 }
 

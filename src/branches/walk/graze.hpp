@@ -36,17 +36,7 @@ struct ExactGraze {
 [[nodiscard]] std::optional<Vector> direction_into_motion(const OrbitEquations& equations, const Vector& from,
                                                           const std::vector<Vector>& directions, double tolerance);
 
-/// A motion with one contact with a soft stop, or one interruption of a contact, more than a graze, where that is
-/// short; or under dry friction with one impact, and a short rebound, before a stick on a stop. It begins with the
-/// event that has the number of the graze, or of the stick. Nothing if there is none.
-struct Opened {
-  Orbit orbit;
-  Vector at, tangent;  ///< of the equations with one parameter, towards longer ones
-};
-[[nodiscard]] std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
-                                           std::size_t graze, double tolerance);
-
-/// The same with a renewal as a touch, or a touch as a renewal.
+/// An orbit with a renewal as a touch, or a touch as a renewal.
 [[nodiscard]] Orbit turned(Orbit orbit, std::size_t event);
 
 }  // namespace clatter::branches

@@ -88,20 +88,29 @@ HaltChange sticking(const Orbit& orbit, const FollowedScene& scene, std::size_t 
 std::optional<HaltChange> reaching(const Orbit& orbit, std::size_t halt) {
   if (orbit.impacts[halt].event != EventKind::stick) return std::nullopt;
   HaltChange change{SpecialKind::graze, orbit, level(Kind::on_stop, halt, orbit.heading_before(halt)), HaltForm::stick};
-  change.strikes = true;
+  change.opens = Opening::Kind::rebound;
   return change;
 }
 
-/// A stick has become no more, or the other way is open sooner.
-HaltChange slipping(const Orbit& orbit, const FollowedScene& scene, std::size_t i) {
+/// A stick has become no more, or the other way is open sooner. What is open where the push falls, or touches the level
+/// at its crest, is so for a short slip, from nothing; with a static level above the kinetic one for a long one.
+HaltChange slipping(const Orbit& orbit, const FollowedScene& scene, std::size_t i, bool jumps) {
   const OrbitImpact& halt = orbit.impacts[i];
   const Side other = opposite(halt.side);
-  if (!holds(scene, halt, other))
-    return {SpecialKind::switching_sliding, orbit, level(Kind::level, i, other), HaltForm::stick};
-  if (holds(scene, halt, halt.side))
-    return {SpecialKind::release_tangency, orbit, level(Kind::tangency, i, other), HaltForm::stick};
+  const bool held = holds(scene, halt, halt.side);
   HaltChange change{SpecialKind::switching_sliding, orbit, level(Kind::level, i, halt.side), HaltForm::stick};
+  if (!jumps) change.opens = Opening::Kind::turn;
+  if (!holds(scene, halt, other)) {
+    change.condition.side = other;
+    return change;
+  }
+  if (held) {
+    change.kind = SpecialKind::release_tangency, change.condition = level(Kind::tangency, i, other);
+    if (!jumps) change.opens = Opening::Kind::release;
+    return change;
+  }
   if (!push_rises(scene, halt)) return change;
+  change.opens.reset();
   const bool goes_on = orbit.heading_before(i) == halt.side;
   change.kind = goes_on ? SpecialKind::grazing_sliding : SpecialKind::crossing_sliding;
   change.beyond = goes_on ? HaltForm::none : HaltForm::reversal;
@@ -229,7 +238,7 @@ std::optional<HaltChange> of_violation(const OrbitEquations& equations, const Cu
     case Violation::Kind::sticks:
       return sticking(orbit, scene, i, jumps);
     case Violation::Kind::slips:
-      return slipping(orbit, scene, i);
+      return slipping(orbit, scene, i, jumps);
     case Violation::Kind::stays:
       return HaltChange{SpecialKind::release_tangency, orbit, level(Kind::tangency, i, orbit.impacts[i].side),
                         HaltForm::stick};

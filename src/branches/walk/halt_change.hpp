@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "branches/branch.hpp"
+#include "branches/walk/opening.hpp"
 #include "branches/walk/touch.hpp"
 
 namespace clatter::branches {
@@ -20,7 +21,7 @@ struct HaltChange {
   Orbit orbit;                                 ///< near it, with the halt that the condition is on
   Condition condition;                         ///< that makes it exact
   std::optional<HaltForm> before{}, beyond{};  ///< of that halt; nothing: the motion isn't one of these
-  bool strikes = false;                        ///< beyond, the mass strikes the stop and sticks after a short rebound
+  std::optional<Opening::Kind> opens{};        ///< what begins from nothing beyond
 };
 /// That of the shortest slip to a halt, if it is about to vanish: what begins it and that halt become one stick.
 [[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at);

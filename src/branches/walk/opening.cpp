@@ -1,0 +1,182 @@
+#include "branches/walk/opening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "branches/equations/flight.hpp"
+#include "branches/equations/newton.hpp"
+#include "branches/walk/ceasing.hpp"
+#include "branches/walk/violation.hpp"
+
+namespace clatter::branches {
+namespace {
+
+using Kind = Opening::Kind;
+
+/// Acceleration at an event, that of the free motion.
+double acceleration(const SceneNumbers<double>& p, const OrbitImpact& event, double offset) {
+  const LeadingForce<double> force = p.force();
+  return force.amplitude * std::sin(event.phase + force.lead) + p.oscillator.load -
+         2 * p.oscillator.damping * event.before - p.oscillator.stiffness * (p.position(event.side) + offset);
+}
+
+/// An orbit with a graze as if a contact or an interruption that lasts for `advance` of the phase began and ended
+/// there.
+Orbit with_short(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, double advance) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  const OrbitImpact middle = orbit.impacts[graze];
+  const double relaxation = p.soft_stop(middle.side).relaxation(), time = advance / p.oscillator.frequency;
+  OrbitImpact begin = middle, end = middle;
+  const double a = acceleration(p, middle, -relaxation * middle.before);
+  double before = time / 2;  // from the beginning to the extremum
+  if (middle.event == EventKind::separation && middle.before == 0) {
+    // v t + a t^2/2 + r (v + a t) = 0, the end of a contact that begins with v: the mass turns after the time -v/a
+    before = time * (time / 2 + relaxation) / (time + relaxation);
+    begin.event = EventKind::touch;
+  } else {
+    begin.event = middle.event == EventKind::separation ? EventKind::renewal : EventKind::separation;
+    if (relaxation == 0 && presses(middle.event)) end.event = EventKind::touch;
+  }
+  begin.phase = middle.phase - p.oscillator.frequency * before, begin.before = middle.before - a * before;
+  end.phase = begin.phase + advance, end.before = begin.before + a * time;
+  Orbit out = orbit;
+  out.impacts[graze] = end;
+  return out.with(begin, graze);
+}
+
+/// An orbit with a stick on a stop as if the mass struck that first, and slipped back for `advance` of the phase.
+Orbit with_rebound(const FollowedScene& scene, const Orbit& orbit, std::size_t stick, double advance) {
+  const Side stop = orbit.heading_before(stick);
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  OrbitImpact impact{stop, orbit.impacts[stick].phase}, halt = orbit.impacts[stick];
+  const double a = with_arcs(
+      scene, [&]<Effects E>() { return Flights<double, E>{p}.acceleration(halt.place, halt.phase, opposite(stop)); });
+  const double time = advance / p.oscillator.frequency;
+  impact.before = a * time / p.restitution(stop);
+  halt.phase += advance, halt.place -= a * time * time / 2;
+  Orbit out = orbit;
+  out.impacts[stick] = halt;
+  return out.with(impact, stick);
+}
+
+/// An orbit with a stick as if the mass turned there, and slipped back for `advance` of the phase: the push back falls
+/// through the level by then. With -c its slope by the time, and t the time, it begins c t/2 above the level and moves
+/// the mass by c t^3/12.
+Orbit with_turn(const FollowedScene& scene, const Orbit& orbit, std::size_t stick, double advance) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  OrbitImpact turn = orbit.impacts[stick], halt = turn;
+  turn.event = EventKind::reversal, turn.side = opposite(orbit.heading_before(stick));
+  const double f = std::abs(p.force().amplitude), nu = p.oscillator.frequency, sign = sign_of(turn.side);
+  const double needed = p.friction.static_level -
+                        sign * (p.oscillator.load - p.oscillator.stiffness * (p.middle() + turn.place)),
+               after_crest = std::acos(std::clamp(needed / f, -1.0, 1.0));
+  const double at_level = crest_near(p, turn.side, turn.phase) + after_crest, c = f * nu * std::sin(after_crest);
+  turn.phase = at_level - advance / 2, halt.phase = at_level + advance / 2;
+  halt.place += sign * c * std::pow(advance / nu, 3) / 12;
+  Orbit out = orbit;
+  out.impacts[stick] = halt;
+  return out.with(turn, stick);
+}
+
+/// An orbit with a stick as if the push the other way came above the level at its crest, and the mass slipped from then
+/// on for `advance` of the phase. With |f| - |f| b^2/2 the push at a phase b from the crest, a slip from b = -r on ends
+/// at b = 2r, and moves the mass by 9/8 |f| r^4/nu^2.
+Orbit with_release(const FollowedScene& scene, const Orbit& orbit, std::size_t stick, double advance) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  const double f = std::abs(p.force().amplitude), r = advance / 3;
+  OrbitImpact held = orbit.impacts[stick], halt = held;
+  held.side = opposite(halt.side);
+  const double crest = crest_near(p, held.side, held.phase);
+  halt.phase = (crest < held.phase ? crest + 2 * std::numbers::pi : crest) + 2 * r;
+  const double sign = sign_of(held.side), k = p.oscillator.stiffness;
+  if (k != 0) held.place = sign * (f * (1 - r * r / 2) - p.friction.static_level) / k;
+  halt.place = held.place + sign * 9 / 8.0 * f * std::pow(r, 4) / std::pow(p.oscillator.frequency, 2);
+  Orbit out = orbit;
+  out.impacts[stick] = halt;
+  return out.with(held, stick);
+}
+
+}  // namespace
+
+Orbit with_opening(const FollowedScene& scene, const Orbit& orbit, const Opening& opening, double advance) {
+  switch (opening.kind) {
+    case Kind::contact:
+      return with_short(scene, orbit, opening.event, advance);
+    case Kind::rebound:
+      return with_rebound(scene, orbit, opening.event, advance);
+    case Kind::turn:
+      return with_turn(scene, orbit, opening.event, advance);
+    case Kind::release:
+      return with_release(scene, orbit, opening.event, advance);
+  }
+  return orbit;
+}
+
+namespace {
+
+/// Another opening of that kind in a violation: motion may be symmetric about another place than x = 0, or in a scene
+/// that isn't, and then it comes to both halves at once.
+std::optional<Opening> another(Kind kind, const Violation& found) {
+  if (kind == Kind::contact && found.kind == Violation::Kind::passes_through &&
+      found.turning.event != EventKind::impact)
+    return Opening{kind, found.impact + 1};
+  if ((kind == Kind::turn || kind == Kind::release) && found.kind == Violation::Kind::slips)
+    return Opening{kind, found.impact};
+  return std::nullopt;
+}
+
+/// Motion between the stops with what began at an event `first`.
+struct Lasting {
+  Orbit orbit;
+  Vector at;
+  std::size_t first;
+};
+/// That of which the slip, the contact or its interruption lasts for `advance` of the phase.
+std::optional<Lasting> with_lasting(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
+                                    const Opening& opening, double advance, double tolerance) {
+  Lasting lasting{with_opening(scene, orbit, opening, advance), {}, opening.event};
+  for (int times = 1; times <= 2; ++times) {
+    // the stick before an early release lasts on to the crest, beside which the slip ends
+    const double lasts = opening.kind == Kind::release
+                             ? lasting.orbit.impact(lasting.first + 1).phase - lasting.orbit.impact(lasting.first).phase
+                             : advance;
+    const OrbitEquations there =
+        equations(lasting.orbit, {{.kind = Condition::Kind::duration, .impact = lasting.first, .duration = lasts}});
+    auto at = solution(there, there.unknowns_of(scene, lasting.orbit), tolerance);
+    if (!at) return std::nullopt;
+    const auto violated = violation(there, *at);
+    lasting.at = *std::move(at);
+    if (!violated) return lasting;
+    const auto second = another(opening.kind, *violated);
+    if (!second) return std::nullopt;
+    Orbit both = there.orbit_at(lasting.at);
+    if (opening.kind == Kind::contact) both = both.with(violated->turning, second->event);
+    lasting.orbit = with_opening(scene, both, *second, advance);
+    if (second->event <= lasting.first) lasting.first += lasting.orbit.size() - there.shape().size();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
+                             const Opening& opening, double tolerance) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  const OrbitImpact& event = orbit.impacts[opening.event];
+  const double of_stop = halts(event.event) ? 0.0 : p.soft_stop(event.side).stiffness;
+  const double rate = std::max(p.oscillator.frequency, std::sqrt(std::abs(p.oscillator.stiffness) + of_stop));
+  for (const double turned_by : {1e-3, 1e-2, 1e-4, 1e-5}) {
+    const auto lasting =
+        with_lasting(equations, scene, orbit, opening, p.oscillator.frequency / rate * turned_by, tolerance);
+    if (!lasting) continue;
+    const OrbitEquations there = equations(lasting->orbit, {});
+    Vector longer(there.unknowns(), 0.0);
+    longer[there.phase_of(lasting->first)] = -1;
+    longer[there.phase_of((lasting->first + 1) % lasting->orbit.size())] = 1;
+    if (auto along = tangent(there, lasting->at, longer)) return Opened{lasting->orbit, lasting->at, *std::move(along)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace clatter::branches
