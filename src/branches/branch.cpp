@@ -8,6 +8,7 @@
 #include "branches/halt_end.hpp"
 #include "branches/resting/resting_branch.hpp"
 #include "branches/start.hpp"
+#include "branches/walk/halves.hpp"
 #include "branches/walk/special_points.hpp"
 
 namespace clatter::branches {
@@ -56,11 +57,12 @@ class Follower {
   void follow(const Waiting& from) {
     speed_unit_ = speed_scale(from.scene, from.orbit);
     record_.begin(speed_unit_);
-    generation_ = from.generation, is_born_ = from.direction.has_value();
+    generation_ = from.generation, born_at_.reset();
     if (from.orbit.rests()) return resting().follow(from);
     if (from.opens) return follow_opened(from);
     const OrbitEquations equations = equations_for(from.orbit);
     CurvePoint start{equations.unknowns_of(from.scene, from.orbit), {}, 0.0};
+    if (from.direction) born_at_ = start.at.back();
     if (from.special && !from.passes) {
       const auto first = first_step(equations, start, from, settings_.tolerance);
       if (!first) return record_.fail(record_.point(equations, start), no_step_off);
@@ -162,32 +164,30 @@ class Follower {
                        const std::optional<std::size_t>& from, bool grazes = false) {
     std::vector<FoundPoint> found =
         special_points_within(equations, walk, step, {from.has_value(), grazes}, problem_.observe);
-    const auto half_of = [&](const FoundPoint& f) {
-      return equations.orbit_at(f.point.at).half_if_same(1e-3, symmetric_);
-    };
-    const auto is_of_more = [&](const FoundPoint& f) {
-      return f.kind == SpecialKind::fold && half_of(f).size() < equations.shape().size();
-    };
-    // beside its own birth, rounding decides which way the parameter runs
-    if (is_born_) std::erase_if(found, [&](const auto& f) { return f.point.arclength < 1e-3 && is_of_more(f); });
-    const auto birth = std::ranges::find_if(found, [&](const FoundPoint& f) {
-      return !from && is_of_more(f) && note_birth(equations, f.point, half_of(f));
+    const auto met = from ? std::nullopt : halves_met(equations, walk, step, symmetric_);
+    const bool born = met && note_birth(equations, *met, step);
+    // in its birth a branch turns round, and so do all its measures: that is no fold of it, and no maximum
+    std::erase_if(found, [&](const FoundPoint& f) {
+      if (f.kind != SpecialKind::fold) return false;
+      if (born_at_ && std::abs(f.point.at.back() - *born_at_) <= beside_singular) return true;
+      return born || (!from && is_turn_of_birth(equations, walk, 2 * step, symmetric_));
     });
-    // in its birth a branch turns round, so all its measures do
-    const double end = birth != found.end() ? birth->point.arclength - 1e-2 * step : walk.here().arclength + step;
+    const double end = born ? met->point.arclength - 1e-2 * step : walk.here().arclength + step;
     for (const FoundPoint& f : found)
       if (f.point.arclength <= end) note(equations, f.kind, f.point);
-    return birth != found.end();
+    return born;
   }
 
-  /// A branch of half the symmetry, or twice the period, of another one ends on it. Returns false if there is no such
-  /// branch at its fold.
-  bool note_birth(const OrbitEquations& equations, const CurvePoint& point, const Orbit& half) {
+  /// A branch of half the symmetry, or twice the period, of another one ends on it. Returns false if no loss of
+  /// symmetry or flip is where its halves meet within a step.
+  bool note_birth(const OrbitEquations& equations, const MetHalves& met, double step) {
+    const Orbit& half = met.half;
     const OrbitEquations there = equations_for(half, {{Condition::Kind::multiplier, -1}});
-    const auto exact = solution(there, there.unknowns_of(equations.scene_at(point.at), half), settings_.tolerance);
-    if (!exact || std::abs(exact->back() - point.at.back()) > 1e-6) return false;
+    const Vector guess = there.unknowns_of(equations.scene_at(met.point.at), half);
+    const auto exact = solution(there, guess, settings_.tolerance);
+    if (!exact || !(largest(sum(*exact, -1.0, guess)) <= step)) return false;
     const SpecialKind kind = half.mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
-    const Record::Noted noted = record_.note(kind, record_.point(there, {*exact, {}, point.arclength}));
+    const Record::Noted noted = record_.note(kind, record_.point(there, {*exact, {}, met.point.arclength}));
     if (noted.is_new && !leaves_out(kind, noted.number)) {
       waiting_.push_back({there.scene_at(*exact), there.orbit_at(*exact), {}, noted.number, generation_ + 1});
       waiting_.back().passes = true;
@@ -333,7 +333,7 @@ class Follower {
   bool symmetric_;  ///< all scenes of the branch
   double speed_unit_ = 0.0;
   std::int64_t generation_ = 0;
-  bool is_born_ = false;  ///< the present branch, at a flip or a loss of symmetry
+  std::optional<double> born_at_{};  ///< the parameter of the flip or loss of symmetry that the branch begins at
   std::deque<Waiting> waiting_;
   Record record_;
 };

@@ -19,6 +19,7 @@ from starts_on_contacts import alike
 OBSERVED = "[observe]\nimpacts = true\nenergy = true\nharmonics = 1\n"
 MOST = 600  # points of a set; a longer one is cut, and isn't compared: begun elsewhere it may have more points
 CUT = object()
+BORN = ("flip", "symmetry breaking")
 # Whether a maximum is told depends on where the steps are, which only those of a machine share.
 COMPARED = ("fold", "flip", "symmetry breaking", "graze", "crossing-sliding", "grazing-sliding", "switching-sliding")
 
@@ -81,7 +82,10 @@ class Sets:
             if len(points) < 8:
                 continue
             words = ("--from", output, "--where", f"point={points[len(points) // 2]}")
-            met = {n for _, _, numbers in specials if number in numbers for n in numbers} | {number}
+            met = {number}
+            for kind, _, numbers in specials:
+                if number in numbers:
+                    met |= {n for n in numbers if kind in BORN or self.is_reached(output, number, n)}
             self.same(f"begun again from branch {number}", i, self.follow(text, key, words=words), specials, met, text)
         other, name = self.configuration(scene, machine())
         met = set(range(int(branch.max()) + 1))
@@ -89,6 +93,17 @@ class Sets:
         self.same("as a machine", i, in_si, everything, met, text)
         if in_si and in_si is not CUT:
             self.same("as a scene", i, found, in_si[0], set(range(int(in_si[1].max()) + 1)), other)
+
+    @staticmethod
+    def is_reached(output, number, other):
+        """Whether a branch that meets another one is followed from there: motion that comes to one that repeats sooner,
+        or is symmetric, at a graze or a change of halts isn't. There its repetitions may each have the change or not,
+        so that motions of any number of them begin.
+        """
+        with h5py.File(output) as data:
+            first = [np.flatnonzero(data["branch"][()] == n)[0] for n in (number, other)]
+            periods, symmetric = data["period_ratio"][()][first], data["symmetric"][()][first]
+        return periods[1] <= periods[0] and not (symmetric[0] == 1 and symmetric[1] == 0)
 
     def same(self, relation, i, again, specials, met, text):
         """All special points of these branches are in another set."""

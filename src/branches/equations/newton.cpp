@@ -29,9 +29,9 @@ std::optional<Vector> newton(Vector point, double tolerance, StepFrom&& step_fro
     const std::optional<Vector> step = step_from(point);
     if (!step) return std::nullopt;
     const double length = largest(*step);
-    if (!(length < std::max(before, 1e-9))) return std::nullopt;
+    if (!(length < std::max(before, beside_singular))) return std::nullopt;
     point = sum(point, 1.0, *step);
-    if (length <= tolerance || (length <= 1e-9 && length > before / 8)) return point;
+    if (length <= tolerance || (length <= beside_singular && length > before / 8)) return point;
     before = length;
   }
   return std::nullopt;

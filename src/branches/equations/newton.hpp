@@ -6,6 +6,10 @@
 
 namespace clatter::branches {
 
+/// The accuracy of Newton's method beside a singular point, where its steps shrink by a half each: the longest last
+/// one.
+inline constexpr double beside_singular = 1e-9;
+
 /// The point of a branch in the plane normal to `direction` through `guess`, by Newton's method; nothing if it doesn't
 /// converge to `tolerance`, in the equations' units.
 [[nodiscard]] std::optional<Vector> corrected(const OrbitEquations& equations, Vector guess, const Vector& direction,

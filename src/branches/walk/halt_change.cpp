@@ -177,12 +177,38 @@ HaltChange once_of(HaltChange change, const FollowedScene& scene) {
   return change;
 }
 
+/// Motion may come to one that repeats sooner, or is symmetric, though its halts differ beside it: some have a length
+/// there, and some are none. This is that motion, with the halt of the change.
+void join(ExactGraze& exact, const HaltChange& change) {
+  constexpr double same = 1e-6;
+  const bool symmetric = may_be_mirrored(exact.scene, exact.orbit, change.condition);
+  const OrbitImpact& halt = exact.orbit.impacts[exact.impact];
+  Orbit once;
+  if (exact.orbit.heading_before(exact.impact) != halt.side) {
+    once = formed(exact.scene, exact.orbit, exact.impact, HaltForm::stick).half_if_same(same, symmetric);
+  } else {
+    const Orbit without = formed(exact.scene, exact.orbit, exact.impact, HaltForm::none);
+    const auto later = std::ranges::upper_bound(without.impacts, halt.phase, {}, &OrbitImpact::phase);
+    const auto number = static_cast<std::size_t>(later - without.impacts.begin());
+    once = without.with(halt, number).once_with_graze(number, symmetric);
+  }
+  if (once.half_turns == exact.orbit.half_turns) return;
+  const auto place = std::ranges::find_if(once.impacts, [&](const OrbitImpact& event) {
+    const double turns = (event.phase - halt.phase) / once.advance();
+    return halts(event.event) && std::abs(turns - std::round(turns)) * once.advance() <= same;
+  });
+  if (place == once.impacts.end()) return;
+  exact = {exact.scene, once, static_cast<std::size_t>(place - once.impacts.begin()), true};
+}
+
 std::optional<ExactGraze> solved(const OrbitEquations& there, const FollowedScene& near, const HaltChange& change,
                                  double within, double tolerance) {
   const Vector guess = there.unknowns_of(near, change.orbit);
   const auto exact = solution(there, guess, tolerance);
   if (!exact || std::abs(exact->back() - guess.back()) > within) return std::nullopt;
-  return ExactGraze{there.scene_at(*exact), there.orbit_at(*exact), change.condition.impact};
+  ExactGraze found{there.scene_at(*exact), there.orbit_at(*exact), change.condition.impact};
+  if (change.before) join(found, change);
+  return found;
 }
 
 }  // namespace
@@ -192,11 +218,13 @@ std::optional<ExactGraze> exact_change(const Equations& equations, const Followe
   const OrbitEquations there = equations(change.orbit, {change.condition});
   if (change.kind == SpecialKind::motion_ceases) return where_motion_ceases(there, near, change.orbit, within);
   const HaltChange once = once_of(change, near);
-  if (once.orbit.half_turns == change.orbit.half_turns) return solved(there, near, change, within, tolerance);
-  auto exact = solved(equations(once.orbit, {once.condition}), near, once, within, tolerance);
+  const bool repeats = once.orbit.half_turns != change.orbit.half_turns;
+  auto exact = repeats ? solved(equations(once.orbit, {once.condition}), near, once, within, tolerance)
+                       : solved(there, near, change, within, tolerance);
   if (!exact) return exact;
   const Parameter along = there.axes().front().parameter;
-  if (once.orbit.mirrored && !(is_symmetric(near) && keeps_symmetry(near, along))) exact->orbit = exact->orbit.whole();
+  if (exact->orbit.mirrored && !change.orbit.mirrored && !(is_symmetric(near) && keeps_symmetry(near, along)))
+    exact->orbit = exact->orbit.whole();
   exact->joins = exact->orbit.half_turns != change.orbit.half_turns;
   return exact;
 }

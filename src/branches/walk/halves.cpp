@@ -1,0 +1,79 @@
+#include "branches/walk/halves.hpp"
+
+#include <cstddef>
+
+namespace clatter::branches {
+namespace {
+
+/// The first half of an orbit, as the motion that it would be by itself; nothing if it can't be one.
+std::optional<Orbit> first_half(const Orbit& orbit, bool symmetric_scene) {
+  const std::size_t size = orbit.size() / 2;
+  if (size == 0 || orbit.size() % 2 != 0 || orbit.mirrored || orbit.half_turns % 2 != 0) return std::nullopt;
+  const int half_turns = orbit.half_turns / 2;
+  Orbit half{{orbit.impacts.begin(), orbit.impacts.begin() + static_cast<std::ptrdiff_t>(size)},
+             half_turns,
+             half_turns % 2 != 0};
+  if (half.mirrored && !symmetric_scene) return std::nullopt;
+  for (std::size_t i = 0; i < size; ++i) {
+    const OrbitImpact one = half.impact(size + i), &other = orbit.impacts[size + i];
+    if (one.event != other.event || one.side != other.side) return std::nullopt;
+  }
+  return half;
+}
+
+/// The second half as the first one would have it, less as it is: phases, and what is known of each event beside them,
+/// with speeds in a unit.
+Vector first_less_second(const Orbit& orbit, const Orbit& half, double speed_unit) {
+  Vector off;
+  for (std::size_t i = half.size(); i < orbit.size(); ++i) {
+    const OrbitImpact one = half.impact(i), &other = orbit.impacts[i];
+    off.insert(off.end(), {one.phase - other.phase, (one.before - other.before) / speed_unit,
+                           (one.place - other.place) / speed_unit, (one.main - other.main) / speed_unit});
+  }
+  return off;
+}
+
+/// The motion in the middle between both halves of an orbit.
+Orbit middle_of(Orbit half, const Orbit& orbit) {
+  const Orbit first = half;
+  for (std::size_t i = 0; i < half.size(); ++i) {
+    const OrbitImpact one = first.impact(half.size() + i), &other = orbit.impacts[half.size() + i];
+    const double sign = half.mirrored ? -1 : 1;
+    OrbitImpact& event = half.impacts[i];
+    event.phase += (other.phase - one.phase) / 2;
+    event.before += sign * (other.before - one.before) / 2;
+    event.place += sign * (other.place - one.place) / 2;
+    event.main += sign * (other.main - one.main) / 2;
+  }
+  return half;
+}
+
+}  // namespace
+
+bool is_turn_of_birth(const OrbitEquations& equations, const Walk& walk, double length, bool symmetric_scene) {
+  const auto end = walk.after(length);
+  return end && walk.here().tangent.back() * end->tangent.back() < 0 &&
+         halves_met(equations, walk, length, symmetric_scene);
+}
+
+std::optional<MetHalves> halves_met(const OrbitEquations& equations, const Walk& walk, double step,
+                                    bool symmetric_scene) {
+  if (!first_half(equations.shape(), symmetric_scene)) return std::nullopt;
+  const auto off_at = [&](const CurvePoint& point) {
+    const Orbit orbit = equations.orbit_at(point.at);
+    return first_less_second(orbit, *first_half(orbit, symmetric_scene), equations.speed_unit());
+  };
+  const auto there = walk.after(step);
+  if (!there) return std::nullopt;
+  const Vector here = off_at(walk.here()), change = sum(off_at(*there), -1.0, here);
+  const auto along_here = [&](const CurvePoint& point) { return product(here, off_at(point)); };
+  // where they meet the branch runs across the parameter, and each half as far as the other one against it: for the
+  // length s of a step, the difference by the root of 2 times s. That of motion whose halves are one is rounding.
+  if (!(along_here(*there) < 0 && product(change, change) >= step * step)) return std::nullopt;
+  auto zero = walk.zero(along_here, step);
+  if (!zero) return std::nullopt;
+  const Orbit orbit = equations.orbit_at(zero->at);
+  return MetHalves{*std::move(zero), middle_of(*first_half(orbit, symmetric_scene), orbit)};
+}
+
+}  // namespace clatter::branches
