@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -291,30 +290,6 @@ TEST(Housing, goes_on_beyond_a_graze_with_one_impact_more) {
     ++grazes;
   }
   EXPECT_GE(grazes, 2);
-}
-
-/// Their product is e^(-2hT) and R^2 of each impact. Beside one beyond 4.5e15, next to a graze, others have no digits.
-TEST(Housing, has_multipliers_with_the_product_of_all_losses_or_none) {
-  const Branches found =
-      follow_branches(given(impact_damper(1.0)), {.along = Parameter("f"), .range = {0.001, 0.02}, .generations = 1});
-  std::size_t known = 0, lost = 0;
-  for (const BranchPoint& point : found.points) {
-    const auto at = [&](std::size_t i) { return std::complex(point.multiplier_re[i], point.multiplier_im[i]); };
-    const double largest = std::abs(at(0)), span = 2 * std::numbers::pi * point.orbit.period_ratio();
-    const auto impacts = static_cast<double>(point.orbit.whole().size());
-    const double losses = std::exp(-2 * point.scene.oscillator.damping * span / point.scene.oscillator.frequency) *
-                          std::pow(point.scene.loose.restitution, 2 * impacts);
-    if (largest < 100) {
-      EXPECT_NEAR(std::abs(at(0) * at(1) * at(2) * at(3) / losses - 1.0), 0, 1e-8);
-      ++known;
-    }
-    const double kept = point.orbit.mirrored ? std::sqrt(largest) : largest;  // that of half a period
-    if (kept < 4.6e15) continue;
-    EXPECT_TRUE(std::isnan(point.multiplier_re[3]) && std::isnan(point.multiplier_im[3])) << largest;
-    ++lost;
-  }
-  EXPECT_GT(known, 100u);
-  EXPECT_GT(lost, 0u);
 }
 
 void expect_refusal(const point::Problem& scene, const char* words) {
