@@ -242,7 +242,8 @@ class Follower {
                     const std::optional<std::size_t>& from) {
     std::optional<Narrowed> between = narrowed(equations, walk, step);
     if (!between) return end_without_step(equations, record_.point(equations, walk.here()), walk.here());
-    const auto end = nearest_end(any_equations(), equations, *between, 10 * near(step), settings_.tolerance);
+    const auto end = nearest_end(any_equations(), equations, *between, std::max(step, 1e-2 * settings_.largest_step),
+                                 settings_.tolerance);
     double length = between->last_good.arclength - walk.here().arclength;
     if (end && end->change) length *= 1 - 1e-4;  // where a slip vanishes, derivatives have no digits
     if (special_between(equations, walk, length, from, !end || !end->change))

@@ -38,7 +38,9 @@ std::array<std::complex<double>, 4> multipliers_of(const motion::LooseJacobian& 
 
 std::array<std::complex<double>, 4> known_of(std::array<std::complex<double>, 4> multipliers, double power) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), epsilon = std::numeric_limits<double>::epsilon();
-  constexpr double lost = 1e3 * epsilon;  // of the largest: so far its rounding takes the digits of others
+  // of the largest: eigenvalues are those of a map that is off by some epsilon of its size, as the method is backward
+  // stable, so one less than 1e3 times that has fewer than three digits
+  constexpr double lost = 1e3 * epsilon;
   const double largest = std::abs(multipliers[0]);
   if (!(std::log2(epsilon * largest) + power > 0)) return multipliers;
   for (std::complex<double>& multiplier : multipliers)
