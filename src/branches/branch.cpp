@@ -57,12 +57,12 @@ class Follower {
   void follow(const Waiting& from) {
     speed_unit_ = speed_scale(from.scene, from.orbit);
     record_.begin(speed_unit_);
-    generation_ = from.generation, born_at_.reset();
+    generation_ = from.generation, turns_at_.clear();
     if (from.orbit.rests()) return resting().follow(from);
+    if (from.direction || from.opens) turns_at_.push_back(parameter(from.scene) / width_);
     if (from.opens) return follow_opened(from);
     const OrbitEquations equations = equations_for(from.orbit);
     CurvePoint start{equations.unknowns_of(from.scene, from.orbit), {}, 0.0};
-    if (from.direction) born_at_ = start.at.back();
     if (from.special && !from.passes) {
       const auto first = first_step(equations, start, from, settings_.tolerance);
       if (!first) return record_.fail(record_.point(equations, start), no_step_off);
@@ -169,8 +169,9 @@ class Follower {
     // in its birth a branch turns round, and so do all its measures: that is no fold of it, and no maximum
     std::erase_if(found, [&](const FoundPoint& f) {
       if (f.kind != SpecialKind::fold) return false;
-      if (born_at_ && std::abs(f.point.at.back() - *born_at_) <= beside_singular) return true;
-      return born || (!from && is_turn_of_birth(equations, walk, 2 * step, symmetric_));
+      const auto is_near = [&](double turn) { return std::abs(f.point.at.back() - turn) <= beside_singular; };
+      return born || std::ranges::any_of(turns_at_, is_near) ||
+             (!from && is_turn_of_birth(equations, walk, 2 * step, symmetric_));
     });
     const double end = born ? met->point.arclength - 1e-2 * step : walk.here().arclength + step;
     for (const FoundPoint& f : found)
@@ -178,15 +179,13 @@ class Follower {
     return born;
   }
 
-  /// A branch of half the symmetry, or twice the period, of another one ends on it. Returns false if no loss of
-  /// symmetry or flip is where its halves meet within a step.
+  /// A branch of half the symmetry, or twice the period, of another one ends on it; false if its halves meet elsewhere.
   bool note_birth(const OrbitEquations& equations, const MetHalves& met, double step) {
-    const Orbit& half = met.half;
-    const OrbitEquations there = equations_for(half, {{Condition::Kind::multiplier, -1}});
-    const Vector guess = there.unknowns_of(equations.scene_at(met.point.at), half);
+    const OrbitEquations there = equations_for(met.half, {{Condition::Kind::multiplier, -1}});
+    const Vector guess = there.unknowns_of(equations.scene_at(met.point.at), met.half);
     const auto exact = solution(there, guess, settings_.tolerance);
     if (!exact || !(largest(sum(*exact, -1.0, guess)) <= step)) return false;
-    const SpecialKind kind = half.mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
+    const SpecialKind kind = met.half.mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
     const Record::Noted noted = record_.note(kind, record_.point(there, {*exact, {}, met.point.arclength}));
     if (noted.is_new && !leaves_out(kind, noted.number)) {
       waiting_.push_back({there.scene_at(*exact), there.orbit_at(*exact), {}, noted.number, generation_ + 1});
@@ -245,7 +244,8 @@ class Follower {
     const auto end = nearest_end(any_equations(), equations, *between, std::max(step, 1e-2 * settings_.largest_step),
                                  settings_.tolerance);
     double length = between->last_good.arclength - walk.here().arclength;
-    if (end && end->change) length *= 1 - 1e-4;  // where a slip vanishes, derivatives have no digits
+    if (end && end->change)  // where a slip vanishes, derivatives have no digits
+      length *= 1 - 1e-4, turns_at_.push_back(parameter(end->exact.scene) / width_);
     if (special_between(equations, walk, length, from, !end || !end->change))
       return record_.end(record_.point(equations, between->last_good), "born");
     if (ends_in_halt(equations, between->last_good, end)) return;
@@ -334,7 +334,7 @@ class Follower {
   bool symmetric_;  ///< all scenes of the branch
   double speed_unit_ = 0.0;
   std::int64_t generation_ = 0;
-  std::optional<double> born_at_{};  ///< the parameter of the flip or loss of symmetry that the branch begins at
+  std::vector<double> turns_at_{};  ///< parameters at which the branch begins or ends, and turns: no fold is told there
   std::deque<Waiting> waiting_;
   Record record_;
 };

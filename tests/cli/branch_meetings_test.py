@@ -66,13 +66,30 @@ births = ["symmetry", "flip"]
 largest_step = 5e-4
 """
 
+# in SI; a branch ends in the release tangency at which a slip vanishes, as the root of the way to there
+SLIP_VANISHES = """[machine]
+mass = 0.37
+x0 = -0.003120899881538297
+v0 = 0.00804241067660616
+stop_lower = -0.3307440930770681
+stop_upper = 0.3307440930770681
+R = 0.38604089057256563
+friction = 0.03730269417854476
+force = -0.37
+stiffness = 1.0999998050881608
+frequency = 0.10438658800697143
+[branch]
+along = "frequency"
+range = [0.0887285998059257, 0.12004457620801713]
+"""
+
 
 class Meetings(BranchRuns):
     def found(self, text, *words):
         """The special points but maxima, each with the branches that meet there."""
         self.branch(text, "-o", "b.h5", "--force", "-q", *words)
         with h5py.File(self.directory / "b.h5") as file:
-            names = ("kind", "nu", "branch")
+            names = ("kind", "nu" if "nu" in file else "frequency", "branch")
             points = zip(*(file[f"special_{name}"][()] for name in names))
             return sorted((kind.decode(), nu, set(of) - {-1}) for kind, nu, of in points if b"maximum" not in kind)
 
@@ -100,8 +117,12 @@ class Meetings(BranchRuns):
             with h5py.File(self.directory / "b.h5") as file:
                 self.assertEqual(np.sum(np.diff(file["branch"][()]) > 0), 4)
 
-    def test_no_fold_is_told_for_a_birth(self):
-        for text, values in ((FOLDS, [0.899700332625]), (DOUBLED, [2.978862097317])):
+    def test_no_fold_is_told_where_a_branch_is_born_or_its_slip_vanishes(self):
+        for text, values in (
+            (FOLDS, [0.899700332625]),
+            (DOUBLED, [2.978862097317]),
+            (SLIP_VANISHES, [0.090097663507698]),
+        ):
             folds = [nu for kind, nu, _ in self.found(text) if kind == "fold"]
             np.testing.assert_allclose(folds, values, rtol=0, atol=1e-11)
 
