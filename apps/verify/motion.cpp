@@ -208,7 +208,8 @@ Event Motion::hit_at_start() {
     begin(Mode::contact, side_, stop.h_s.is_zero() ? 1 : 0);
     return {Kind::touch, side_, time, v, Ball(0)};
   }
-  set_ = MovingSet({stop.position, -stop.R * v}, {Ball(0), Ball(0)});
+  set_ = MovingSet({time, v}, {Ball(0), Ball(0)});  // as after any impact, from which a chatter may go on
+  on_surface_ = true, place_ = Dual(stop.position), q_ = Dual(0), factor_ = Dual(-stop.R);
   rebound(side_, time);
   return {Kind::impact, side_, time, v, Ball(0)};
 }

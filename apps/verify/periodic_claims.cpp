@@ -61,9 +61,10 @@ bool same_word(const Word& claimed, const std::vector<std::string>& found) {
 }
 
 /// Motion without impacts that starts on a stop, or beyond a soft one, stays there. A mass that friction holds, and
-/// that neither turns nor is held once more in the period, is held for good: what moves has to come back.
-std::string word_without_impacts(const std::vector<Event>& events, const Scene& scene, const Ball& x) {
-  const auto stays = [](Side side) { return side == Side::upper ? "(U)" : "(L)"; };
+/// that neither turns nor is held once more in the period, is held for good: what moves has to come back. Nothing if
+/// the start may be on either side of a stop.
+std::optional<std::string> word_without_impacts(const std::vector<Event>& events, const Scene& scene, const Ball& x) {
+  const auto stays = [](Side side) -> std::string { return side == Side::upper ? "(U)" : "(L)"; };
   if (events.size() == 1 && events.front().kind == Kind::stick) return "(S)";
   const auto on_stop = std::ranges::find_if(events, [](const Event& event) { return !is_of_friction(event.kind); });
   if (on_stop != events.end()) return stays(on_stop->side);
@@ -72,6 +73,7 @@ std::string word_without_impacts(const std::vector<Event>& events, const Scene& 
     if (!stop) continue;
     const Ball beyond = (x - stop->position) * Ball(sign_of(side));
     if (beyond.is_positive() || beyond.is_zero()) return stays(side);
+    if (!beyond.is_negative()) return std::nullopt;
   }
   return "-";
 }
@@ -110,7 +112,11 @@ void check_word(const Certificate& certificate, const Cycle& cycle, const Scene&
   std::string found;
   for (const std::string& letter : letters) found += letter;
   if (claimed.empty() && letters.empty()) return;  // says nothing of where it stays
-  if (letters.empty()) found = word_without_impacts(cycle.events(), scene, x);
+  if (letters.empty()) {
+    const auto word = word_without_impacts(cycle.events(), scene, x);
+    if (!word) return report.add(Verdict::undecided, "word: on which side of a stop the mass stays");
+    found = *word;
+  }
   if (letters.empty() ? claimed != found : !same_word(*certificate.word, letters))
     report.add(Verdict::refuted, "word: claimed '" + claimed + "', found '" + found + "'");
 }
