@@ -21,7 +21,7 @@ REASONS = {  # what is said of each, None: it is true, and proved
     "a released motion that isn't symmetric": "symmetric: claimed true, found false",
     "three times the period of a symmetric fold": "periods: claimed 3, found 1",
     "one period of that fold": None,
-    "x_min of a chatter that isn't followed": "event 2, chatter at the upper stop: claimed, found impact",
+    "x_min of a chatter that isn't followed": r"x_min: claimed 5 to 5, found \[-0\.0413737815",
     "a chatter left out on one side of a symmetric motion": "event 2, rest at the lower stop: claimed, and neither",
     "twice the period, a chatter left out": "event 14, press at the upper stop: claimed, and neither",
     "a stick after the end": "event 2, stick: claimed before the end of event 1",
