@@ -139,8 +139,7 @@ ObservedTime Decisions::decided_by_fixed_point(const Problem& problem, ObservedT
   });
   if (same == known.end()) {
     Sections exact = periodic_sections(problem, found.from, static_cast<std::int64_t>(found.turns));
-    if (passing(exact, found.from) == exact.end())
-      return over_window(Status::undecided, problem, std::move(found));
+    if (passing(exact, found.from) == exact.end()) return over_window(Status::undecided, problem, std::move(found));
     same = known.insert(known.end(), std::move(exact));
   }
   return observed(problem, std::move(found), *same);

@@ -20,8 +20,8 @@ struct ShardHeader {
   std::string config, config_sha256;
   std::string instruction_set{};  ///< of its lanes
   std::string rounding;           ///< all that its last bits depend on (`rounding_fingerprint`)
-  std::uint64_t impacts = 0;  ///< number in its log
-  std::uint64_t values = 0;   ///< number in all variables
+  std::uint64_t impacts = 0;      ///< number in its log
+  std::uint64_t values = 0;       ///< number in all variables
 };
 
 /// The most values that a run writes by a shard's configuration; nothing if that can't be read.
