@@ -22,8 +22,10 @@ std::string events_of(const Orbit& orbit) {
     letters += {letter, event.side == Side::upper ? '+' : '-'};
   }
   std::string first = letters;
-  for (std::size_t i = 0; i < letters.size(); i += 2)
-    std::ranges::rotate(letters, letters.begin() + 2), first = std::min(first, letters);
+  for (std::size_t i = 0; i < letters.size(); i += 2) {
+    std::rotate(letters.begin(), letters.begin() + 2, letters.end());
+    first = std::min(first, letters);
+  }
   return first;
 }
 

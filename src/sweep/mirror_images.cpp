@@ -125,8 +125,8 @@ point::PointResult mirrored(const point::PointResult& result) {
   mirror.x_min = -result.x_max, mirror.x_max = -result.x_min;
   mirror.v_min = -result.v_max, mirror.v_max = -result.v_min;
   mirror.attractor_x = -result.attractor_x, mirror.attractor_v = -result.attractor_v;
-  const auto& [displacement, velocity, phase] = static_cast<const Start&>(result.end);
-  static_cast<Start&>(mirror.end) = {-displacement, -velocity, std::fmod(phase + pi<double>(), 2 * pi<double>())};
+  mirror.end.displacement = -result.end.displacement, mirror.end.velocity = -result.end.velocity;
+  mirror.end.phase = std::fmod(result.end.phase + pi<double>(), 2 * pi<double>());
   return mirror;
 }
 
