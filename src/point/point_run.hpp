@@ -142,7 +142,8 @@ class Point {
     return take(sections.front(), state) ? stepping::Outcome::completed : stepping::Outcome::unresolved;
   }
   /// Replaces a state by the same one known better, unless double has already completed a chatter that goes on in more
-  /// digits; false if they aren't the same.
+  /// digits, or a soft stop's touch falls on the section, which one of them is before, so that it would come twice or
+  /// not at all; false if they aren't the same.
   [[nodiscard]] bool take(const motion::State<double>& section, motion::State<double>& state) const {
     constexpr double same = 1e-6;
     const double size = std::max(std::abs(section.x), std::abs(section.v));
@@ -154,7 +155,7 @@ class Point {
       const steady::BeyondContact beyond_contact(problem_, integrator_.period());
       return are_near(beyond_contact(here), beyond_contact(there));
     }
-    if (state.chatters || state.v == 0) return true;
+    if (state.chatters || state.v == 0 || state.within != section.within) return true;
     const std::int64_t periods = state.periods;
     state = section, state.periods = periods;
     return true;

@@ -145,6 +145,29 @@ word = true
 stability = true
 """
 
+# Of seven periods, whose sections 50 digits tell; a touch of the upper stop falls on one of them.
+LONG = """[scene]
+h = 0.0087249928297371
+f = 7.21860320588062
+nu = 4.968396161551015
+phase = {phase!r}
+load = -1.314301614747237
+x0 = 0.41848203830390907
+v0 = 1.5089397841454633
+stop_lower = -0.534302578048116
+stop_stiffness_lower = 83.36453902938992
+stop_damping_lower = 3.58397163689816
+stop_upper = 0.41848203830390907
+stop_stiffness_upper = 50.04006275102643
+stop_damping_upper = 4.926592433602558
+[time]
+max_periods = 600
+[observe]
+period = true
+word = true
+stability = true
+"""
+
 
 class ContactOnSection(CommandLine):
     def run_on(self, arch, text, name="scene"):
@@ -245,6 +268,13 @@ class ContactOnSection(CommandLine):
                 self.assertEqual(file["period_ratio"][()], 2)
                 multipliers.append(file["multiplier_re"][0])
         np.testing.assert_allclose(multipliers, multipliers[0], atol=1e-7)
+
+    def test_a_touch_on_a_section_of_a_long_period_counts_once(self):
+        for late in (0.0, 0.3, -0.3):
+            with self.subTest(late=late), self.run_on("scalar", LONG.format(phase=-2.3559059098058412 + late)) as file:
+                self.assertEqual(file["period_ratio"][()], 7)
+                self.assertEqual(sorted(file["impact_word"][()].decode()), sorted("LLULULULULULU"))
+                self.assertAlmostEqual(file["multiplier_re"][0], -0.890984343, 6)
 
 
 if __name__ == "__main__":
