@@ -126,21 +126,24 @@ class Zeros:
         if not begun:
             return
         sign = self.draw.choice([-1, 1]) if key in ANY_SIGN else 1
-        beside = [
-            scene.shifted(sign * SMALL) if key == "place" else scene.changed(**{key: sign * SMALL}) for scene in begun
-        ]
-        zero = run(self.program, begun, observe, way=way)
-        near = run(self.program, beside, observe, way=way)
+
+        def beside(step):
+            step *= sign * SMALL
+            changed = [scene.shifted(step) if key == "place" else scene.changed(**{key: step}) for scene in begun]
+            return run(self.program, changed, observe, way=way)
+
+        zero, near, farther = run(self.program, begun, observe, way=way), beside(1), beside(2)
         for j, k in enumerate(found):
             self.failures.compared += 1
-            for text in self.told(near, zero, j):
+            for text in self.told(near, zero, farther, j):
                 both = way.configuration(begun[j], observe)
                 self.failures.add(
                     f"{key} at zero", points[k], text.replace(" for ", f" at {key} = {SMALL}, and at 0 "), both
                 )
 
     @staticmethod
-    def told(near, zero, j):
+    def told(near, zero, farther, j):
+        """What differs; of derivatives, which a curved result changes by more than rounding, from a straight line."""
         for runs in (near, zero):  # a load takes the symmetry; the residual is rounding
             runs.values.pop("symmetric", None), runs.values.pop("energy_residual", None)
         plain = [name for name in zero.values if not name.startswith("d_")]
@@ -153,7 +156,8 @@ class Zeros:
         for name in slopes:
             mine, its = np.atleast_1d(near[name][j]), np.atleast_1d(zero[name][j])
             unknown = np.isnan(mine) & np.isnan(its)
-            far = np.abs(mine - its) > 1e-4 * (np.abs(its) + size)
+            line = 2 * mine - np.atleast_1d(farther[name][j])
+            far = np.minimum(np.abs(mine - its), np.abs(line - its)) > 1e-4 * (np.abs(its) + size)
             if np.any(np.isnan(mine) != np.isnan(its)) or (stretched < 1e3 * (1 + size) and np.any(far & ~unknown)):
                 told.append(f"{name} {mine} for {its}")
         return told
