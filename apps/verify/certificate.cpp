@@ -265,7 +265,7 @@ void read_for_people(const Field& root, Certificate& certificate) {
     place += *member == 'n' && text.size() > 1 ? text.substr(1, text.size() - 2) : text;
   }
   if (!certificate.special) return;
-  if (!certificate.number_of_parameter()) certificate.for_people.emplace_back("parameter");
+  if (certificate.values_of_parameter().empty()) certificate.for_people.emplace_back("parameter");
   if (certificate.special->slopes.phase != Number()) certificate.for_people.emplace_back("slopes.phase");
 }
 

@@ -109,9 +109,9 @@ struct Certificate {
   /// The scene of a special point at some values of the parameter, less the claimed one.
   [[nodiscard]] MovingScene moving_scene(const Ball& offset) const;
   [[nodiscard]] Start start_in_balls() const;
-  /// The number of the scene that is the parameter of a special point, or less it, as its slope 1 or -1 says; the one
-  /// nearest to the claimed value if there are several. Nothing: the scene doesn't say at which value it is.
-  [[nodiscard]] std::optional<Ball> number_of_parameter() const;
+  /// The values of a special point's parameter that the scene says it is at: those of its numbers that have the slope
+  /// 1, and less those that have the slope -1. Nothing: the scene doesn't say.
+  [[nodiscard]] std::vector<Ball> values_of_parameter() const;
 };
 
 /// A line that begins a list of certificates, or ends it and counts those since its beginning, or since that of the

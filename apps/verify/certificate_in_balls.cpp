@@ -82,14 +82,11 @@ MovingScene Certificate::moving_scene(const Ball& offset) const {
   });
 }
 
-std::optional<Ball> Certificate::number_of_parameter() const {
-  std::optional<Ball> nearest;
-  const Ball value = special->parameter.value.ball(), one(1);
+std::vector<Ball> Certificate::values_of_parameter() const {
+  std::vector<Ball> values;
   const auto consider = [&](const Number& slope, const Number& number) {
     const Ball s = slope.ball();
-    if (!(abs(s) - one).is_zero()) return;
-    const Ball found = s * number.ball();
-    if (!nearest || abs(found - value).near() < abs(*nearest - value).near()) nearest = found;
+    if ((abs(s) - Ball(1)).is_zero()) values.push_back(s * number.ball());
   };
   const SceneNumbers& slopes = special->slopes;
   for (Number SceneNumbers::*const member :
@@ -99,7 +96,7 @@ std::optional<Ball> Certificate::number_of_parameter() const {
     for (Number StopNumbers::*const member :
          {&StopNumbers::position, &StopNumbers::R, &StopNumbers::stiffness, &StopNumbers::damping})
       if (scene.stops[i] && slopes.stops[i]) consider(*slopes.stops[i].*member, *scene.stops[i].*member);
-  return nearest;
+  return values;
 }
 
 Start Certificate::start_in_balls() const {

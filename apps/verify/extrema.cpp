@@ -13,11 +13,13 @@ namespace {
 class Largest {
  public:
   void add(const Ball& y) {
+    require_known(y);
     if (!best_ || y.lower() > lower_) lower_ = y.lower();
     best_ = !best_ || y.upper() > best_->upper() ? y : *best_;
   }
   /// Adds a number that may not be one of them: none is larger for it.
   void add_bound(const Ball& y) {
+    require_known(y);
     if (best_ && y.upper() > best_->upper()) best_ = y;
   }
   [[nodiscard]] bool exceeds(const Ball& y) const { return best_ && y.upper() <= lower_; }
@@ -25,6 +27,11 @@ class Largest {
   [[nodiscard]] Ball value() const { return Ball::hull(lower_, best_->upper()); }
 
  private:
+  /// What isn't a number is neither above nor below another one, so that the comparisons would pass it over.
+  static void require_known(const Ball& y) {
+    if (!y.is_finite()) throw Undecided("where the mass is");
+  }
+
   std::optional<Ball> best_;  ///< the one with the largest upper bound
   Ball lower_;                ///< the largest lower bound
 };

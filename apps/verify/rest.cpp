@@ -71,7 +71,7 @@ Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) co
   const Ball longest = (Ball(2) * flight / (Ball(1) - returned)).upper();
   const Ball during = press(time + Ball::hull(Ball(0), longest));
   const Ball height = (square(w) / now).upper();  // twice that of the first flight under the present force
-  const Ball other = Ball::around_zero(Ball(2) * scene_.h * fastest + abs(scene_.k) * height);
+  const Ball other = Ball::around_zero(Ball(2) * abs(scene_.h) * fastest + abs(scene_.k) * height);
   const Ball least = (during + other).lower(), most = (during + other).upper();
   if (!(least > scene_.friction_static) || !(most < Ball(4) * least) || !(square(w) / (Ball(2) * least) <= height))
     throw Undecided("whether a chatter ends");

@@ -92,14 +92,44 @@ std::optional<Ball> part_with_change(const Curve& curve, SpecialKind kind) {
   return Ball::hull(from, to);
 }
 
-/// Proves, part by part, that no claimed place of the curve is special.
+/// Holds the numbers that move with the parameter to the limits that the format sets those of a scene. Beyond them the
+/// equations have motions, too, but none of a scene.
+void require_limits(const MovingScene& scene, Report& report) {
+  const auto require_above = [&](const char* name, const Dual& number, const Dual& limit, bool or_at_it) {
+    const Dual over = number - limit;
+    if (over.is_constant() || over.value.is_positive() || (or_at_it && Ball(0) <= over.value)) return;
+    const bool is_beyond = over.value.is_negative() || (!or_at_it && over.value.is_zero());
+    report.add(is_beyond ? Verdict::refuted : Verdict::undecided, std::string("parameter: the found one makes ") +
+                                                                      name + " of the scene " + number.value.text() +
+                                                                      ", beyond its limit");
+  };
+  require_above("h", scene.h, Dual(0), true);
+  require_above("nu", scene.nu, Dual(0), false);
+  require_above("the amount of f", scene.f.value.is_negative() ? -scene.f : scene.f, Dual(0), false);
+  for (const auto& stop : scene.stops) {
+    if (!stop) continue;
+    require_above("R", stop->R, Dual(0), true), require_above("1 - R", Dual(1) - stop->R, Dual(0), true);
+    require_above("the stiffness", stop->kappa, Dual(0), !stop->soft);
+    require_above("the damping", stop->zeta, Dual(0), true);
+  }
+  const auto& [lower, upper] = scene.stops;
+  if (lower && upper) require_above("the upper position", upper->position, lower->position, false);
+}
+
+bool may_be_within_limits(const MovingScene& scene) {
+  Report report;
+  require_limits(scene, report);
+  return report.finding().verdict != Verdict::refuted;
+}
+
+/// Proves, part by part, that no claimed place of the curve is special, of those whose scenes keep the format's limits.
 class Exclusion {
  public:
   Exclusion(const Curve& curve, SpecialKind kind) : curve_(curve), kind_(kind) {}
 
   [[nodiscard]] bool holds(const Ball& from, const Ball& to, int halvings = 12) {
     const Place place = curve_.at(Ball::hull(from, to));
-    if (!curve_.may_be_claimed(place) || has_sign(place)) return true;
+    if (!curve_.may_be_claimed(place) || !may_be_within_limits(curve_.scene(place.p)) || has_sign(place)) return true;
     if (halvings == 0 || --parts_left_ < 0) return false;
     const Ball middle = ((from + to) / Ball(2)).middle();
     return holds(from, middle, halvings - 1) && holds(middle, to, halvings - 1);
@@ -200,15 +230,18 @@ void require_possible_kind(const Certificate& certificate) {
 /// The scene is claimed to be that at the parameter's value.
 void require_scene_at_parameter(const Certificate& certificate) {
   const Claimed& parameter = certificate.special->parameter;
-  const auto number = certificate.number_of_parameter();
-  if (number && abs(*number - parameter.value.ball()) > parameter.error.ball())
-    throw Refuted("parameter: claimed " + parameter.value.text() + " to " + parameter.error.text() +
-                  ", the scene is that at " + number->text());
+  for (const Ball& value : certificate.values_of_parameter())
+    if (abs(value - parameter.value.ball()) > parameter.error.ball())
+      throw Refuted("parameter: claimed " + parameter.value.text() + " to " + parameter.error.text() +
+                    ", the scene is that at " + value.text());
 }
 
 void compare_place(const Certificate& certificate, const Place& place, Report& report) {
   const Claimed& parameter = certificate.special->parameter;
-  report.compare("parameter", certificate.number_of_parameter().value_or(parameter.value.ball()) + place.p, parameter);
+  std::vector<Ball> values = certificate.values_of_parameter();
+  if (values.empty()) values.push_back(parameter.value.ball());
+  for (const Ball& value : values) report.compare("parameter", value + place.p, parameter);
+  require_limits(certificate.moving_scene(place.p), report);
   if (certificate.released) return;
   report.compare("start, x", place.x, certificate.start_x);
   report.compare("start, v", place.v, certificate.start_v);

@@ -44,6 +44,9 @@ REASONS = {  # what is said of each, None: it is true, and proved
     "a motion within one soft stop": None,
     "the symmetry of a free motion before one stop": "symmetric: the scene isn't, to its last digit",
     "the symmetry of a free motion between two stops": None,
+    "a fold of a restitution above 1": r"parameter: the found one makes 1 - R of the scene \[-0\.0006368",
+    "a graze of a negative damping": r"parameter: the found one makes h of the scene \[-9\.9478",
+    "a graze at a value that one of two numbers has": r"parameter: claimed 0\.1 to 1e-10, .* at \[0\.9571409191",
 }
 UNDECIDED = {
     "the fastest impact, beside a chatter that hides a faster one",
