@@ -33,7 +33,12 @@ void check_response(const Certificate& certificate, const Scene& scene, const Re
   check_symmetry_of(certificate, scene, found, report);
 }
 
-void check_orbit(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report) {
+void check_periodic(const Certificate& certificate, Report& report) {
+  const Scene scene = certificate.scene_in_balls();
+  if (scene.loose) return check_in_housing(certificate, scene, report);
+  if (const auto response = steady_response(certificate, scene))
+    return check_response(certificate, scene, *response, report);
+  const Orbit orbit = claimed_orbit(certificate, scene);
   compare_events(certificate, orbit.events, report);
   if (!certificate.released) {
     report.compare("start, x", orbit.first.x, certificate.start_x);
@@ -45,18 +50,6 @@ void check_orbit(const Certificate& certificate, const Scene& scene, const Orbit
   check_word(certificate, cycle, scene, orbit.first.x, report);
   check_smallest_period(certificate, scene, orbit, cycle, report);
   check_symmetry(certificate, scene, orbit, cycle, report);
-}
-
-void check_periodic(const Certificate& certificate, Report& report) {
-  const Scene scene = certificate.scene_in_balls();
-  if (scene.loose) return check_in_housing(certificate, scene, report);
-  const auto judge_found = [&](const auto& found, const auto& compare) {
-    judge([&](Report& of_found) { compare(certificate, scene, found, of_found); },
-          [&] { return is_only_claimed(certificate, scene, found); },
-          [&] { require_possible_motion(certificate, scene); }, report);
-  };
-  if (const auto response = steady_response(certificate, scene)) return judge_found(*response, check_response);
-  judge_found(claimed_orbit(certificate, scene), check_orbit);
 }
 
 /// Follows a transient to its end.

@@ -44,7 +44,6 @@ Event Course::found_for(const ClaimedEvent& claim) {
   try {
     return next_event(&claim);
   } catch (const Undecided&) {
-    if (claim.kind == Kind::graze) throw;  // it crosses nothing
     if (motion_.stretches().size() != before ||
         !motion_.is_clear_until(smaller(latest(claim.until ? *claim.until : claim.time), end_)))
       throw;

@@ -172,20 +172,6 @@ Place Curve::at(const Ball& distance) const {
   return {first.x.within(near.x + image.x), first.v.within(near.v + image.v), first.p.within(near.p + image.p)};
 }
 
-/// In the other curve's box there is one place at each distance along that curve. A part of this one that stays in the
-/// box, from beyond one end of the other to beyond the other end, has a place at each of them.
-bool Curve::covers(const Curve& other) const {
-  const Ball to = (Ball(1.1) * other.reach_).upper();
-  if (!(to <= reach_)) return false;
-  const auto from_centre = [&](const Ball& distance) { return at(distance) + Ball(-1) * other.centre_; };
-  const Place all = from_centre(Ball::hull(-to, to));
-  if (!within(other.box_.x).holds_inside(all.x) || !within(other.box_.v).holds_inside(all.v) ||
-      !within(other.box_.p).holds_inside(all.p))
-    return false;
-  const Ball first = dot(other.along_, from_centre(-to)), last = dot(other.along_, from_centre(to));
-  return (first < -other.reach_ && last > other.reach_) || (last < -other.reach_ && first > other.reach_);
-}
-
 Place Curve::everywhere() const {
   return certificate_.released ? Place{Ball(0), Ball(0), within(reach_)}
                                : centre_ + Place{within(box_.x), within(box_.v), within(box_.p)};

@@ -45,9 +45,6 @@ class Curve {
   [[nodiscard]] Place everywhere() const;
   /// So far on each side of it the curve is proved; no claimed place is beyond.
   [[nodiscard]] const Ball& reach() const { return reach_; }
-  /// Whether all claimed places of another curve are proved to be on this one, whose places are places of that one as
-  /// far as both are proved.
-  [[nodiscard]] bool covers(const Curve& other) const;
   /// The claimed errors of x, v and the parameter, about the claimed place.
   [[nodiscard]] bool may_be_claimed(const Place& place) const;
   [[nodiscard]] bool is_mirrored() const { return mirrored_; }  ///< half a period is followed

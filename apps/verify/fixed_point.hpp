@@ -27,23 +27,15 @@ struct FixedBox {
   }
 };
 
-/// What Krawczyk's operator makes of a box about a start, from there: it holds all fixed points that the box has.
-template <class Vector, class Matrix>
-Vector krawczyk_image(const Vector& start, const Vector& box, const Passage<Vector, Matrix>& passage) {
-  const Matrix slope = passage.derivative.less_identity(), inverse = slope.middle().inverse().middle();
-  const Vector from = -(inverse * (passage.image - start));
-  const Matrix rest = -(inverse * slope).less_identity();
-  const Vector image = from + rest * box;
-  if (!image.all(image, [](const Ball& x, const Ball&) { return x.is_finite(); }))
-    throw Undecided("Krawczyk's operator");
-  return image;
-}
-
 /// Krawczyk's operator on a box about a start; nothing if it doesn't map the box into itself, and then a wider box.
 template <class Vector, class Matrix>
 std::optional<FixedBox<Vector>> krawczyk(const Vector& start, Vector& width, const Passage<Vector, Matrix>& passage) {
-  const Vector box = width.each([](const Ball& w) { return Ball::around_zero(w); });
-  const Vector image = krawczyk_image(start, box, passage);
+  const Matrix slope = passage.derivative.less_identity(), inverse = slope.middle().inverse().middle();
+  const Vector from = -(inverse * (passage.image - start));
+  const Matrix rest = -(inverse * slope).less_identity();
+  const Vector box = width.each([](const Ball&w) { return Ball::around_zero(w); }), image = from + rest * box;
+  if (!image.all(image, [](const Ball& x, const Ball&) { return x.is_finite(); }))
+    throw Undecided("Krawczyk's operator");
   if (box.all(image, [](const Ball& side, const Ball& x) { return side.holds_inside(x); }))
     return FixedBox<Vector>{start, width, start + image};
   width = image.each([](const Ball& x) { return Ball(4) * abs(x).upper(); });
@@ -75,21 +67,6 @@ FixedBox<Vector> fixed_point(Vector start, const Vector& claimed, const Pass& pa
   for (int attempt = 0; attempt < 5; ++attempt)
     if (const auto found = krawczyk(start, width, pass(start, width))) return *found;
   throw Undecided("whether there is a periodic motion: Krawczyk's operator doesn't contract");
-}
-
-/// Whether a map has no other fixed point than a found one within claimed errors.
-template <class Vector, class Pass>
-bool is_alone(const FixedBox<Vector>& found, const Vector& claimed, const Vector& errors, const Pass& pass) {
-  const Vector all = claimed + errors.each([](const Ball& error) { return Ball::around_zero(error); });
-  if (found.holds(all)) return true;
-  const Vector middle = claimed.middle(), width = (all - middle).each([](const Ball&x) {
-    return (Ball(1 + 0x1p-10) * abs(x) + Ball(0x1p-1000)).upper();
-  });
-  const Vector box = width.each([](const Ball& w) { return Ball::around_zero(w); });
-  const Vector image = krawczyk_image(middle, box, pass(middle, width));
-  if (!all.all(middle + image, [](const Ball& x, const Ball& y) { return x.overlaps(y); })) return true;
-  const auto holds = [](const Ball& side, const Ball& x) { return side.holds_inside(x); };
-  return box.all(image, holds) && (middle + box).all(found.first, holds);
 }
 
 }  // namespace verify

@@ -45,8 +45,9 @@ Orbit periodic_orbit(const Certificate& certificate, const Scene& scene, long pe
 namespace {
 
 /// Motion that rests: its state is exact again, whatever was before.
-Orbit exact(Motion motion, const std::vector<Event>& events, const Vector& start) {
+Orbit exact(Motion motion, const std::vector<Event>& events, const Certificate& certificate) {
   const Ball zero(0);
+  const Vector start{certificate.start_x.value.ball(), certificate.start_v.value.ball()};
   return {{start, {zero, zero}, start}, std::move(motion), events, Matrix::zero()};
 }
 
@@ -59,7 +60,7 @@ Orbit resting_orbit(const Certificate& certificate, const Scene& scene) {
   Course course(certificate, motion, motion.start_time() + length_of(scene, certificate.periods));
   course.run();
   require_same_release(certificate, course, motion.turns_of_release() - first);
-  return exact(std::move(motion), course.events(), {Ball(0), Ball(0)});
+  return exact(std::move(motion), course.events(), certificate);
 }
 
 }  // namespace
@@ -104,56 +105,23 @@ std::optional<Response> steady_response(const Certificate& certificate, const Sc
                   motion.flow().propagator(length_of(scene, certificate.periods))};
 }
 
-namespace {
-
-/// Whether a stop is claimed to hold the mass from the start on.
-bool is_held(const Certificate& certificate) {
-  return certificate.events.size() == 1 && certificate.events[0].kind == Kind::rest;
-}
-
-}  // namespace
-
-void require_possible_motion(const Certificate& certificate, const Scene& scene) {
-  Motion motion(scene, certificate.start_in_balls(),
-                {certificate.start_x.error.ball(), certificate.start_v.error.ball()});
-  require_possible(certificate, motion, motion.start_time() + length_of(scene, certificate.periods));
-}
-
-bool is_only_claimed(const Certificate& certificate, const Scene& scene, const Orbit& orbit) {
-  if (certificate.released || is_held(certificate)) return true;
-  Start start = certificate.start_in_balls();
-  const Vector claimed{start.x, start.v};
-  const auto pass = [&](const Vector& middle, const Vector& width) -> Passage<Vector, Matrix> {
-    start.x = middle.x, start.v = middle.y;
-    std::vector<Event> events;
-    const Motion motion = followed(certificate, scene, {start, width}, certificate.periods, events);
-    return {motion.centre(), motion.derivative()};
-  };
-  return is_alone(orbit, claimed, {certificate.start_x.error.ball(), certificate.start_v.error.ball()}, pass);
-}
-
-/// Without an event motion is linear in its start, on each side of a soft stop.
-bool is_only_claimed(const Certificate& certificate, const Scene& scene, const Response& found) {
-  for (const auto& stop : scene.stops)
-    if (stop && stop->soft &&
-        !(abs(stop->position - certificate.start_x.value.ball()) > certificate.start_x.error.ball()))
-      return false;
-  const Ball repeats = found.derivative.less_identity().determinant();
-  return repeats.is_positive() || repeats.is_negative();
-}
-
 Orbit claimed_orbit(const Certificate& certificate, const Scene& scene) {
   if (certificate.released) return resting_orbit(certificate, scene);
-  if (!is_held(certificate))
-    return found_or_undecided([&] { return periodic_orbit(certificate, scene, certificate.periods); },
-                              [&] { require_possible_motion(certificate, scene); });
+  const bool held = certificate.events.size() == 1 && certificate.events[0].kind == Kind::rest;
+  if (!held) {
+    const auto require_one = [&] {
+      Motion motion(scene, certificate.start_in_balls(),
+                    {certificate.start_x.error.ball(), certificate.start_v.error.ball()});
+      require_possible(certificate, motion, motion.start_time() + length_of(scene, certificate.periods));
+    };
+    return found_or_undecided([&] { return periodic_orbit(certificate, scene, certificate.periods); }, require_one);
+  }
   if (certificate.periods != 1) throw Refuted("periods: claimed " + std::to_string(certificate.periods) + ", found 1");
-  Start start = certificate.start_in_balls();  // a stop holds the mass for ever, and at no other place
-  start.x = scene.stop(certificate.events[0].side).position, start.v = Ball(0);
-  std::vector<Event> events;
-  Motion motion = followed(certificate, scene, {start, {Ball(0), Ball(0)}}, certificate.periods, events);
+  std::vector<Event> events;  // a stop holds the mass for ever
+  Motion motion =
+      followed(certificate, scene, {certificate.start_in_balls(), {Ball(0), Ball(0)}}, certificate.periods, events);
   if (!motion.is_resting()) throw Refuted("the stop lets the mass go within the period, and it doesn't come back");
-  return exact(std::move(motion), events, {start.x, start.v});
+  return exact(std::move(motion), events, certificate);
 }
 
 }  // namespace verify

@@ -55,38 +55,7 @@ template <class Find, class Require>
   }
 }
 
-/// What `compare` finds of a motion near the claimed one is the verdict. But it refutes the claim only if no other
-/// motion of the claimed errors is periodic, as `is_alone` tells, or if `require_one` refutes all of them.
-template <class Compare, class Alone, class Require>
-void judge(const Compare& compare, const Alone& is_alone, const Require& require_one, Report& report) {
-  Report found;
-  try {
-    compare(found);
-  } catch (const Refuted& refuted) {
-    found.add(Verdict::refuted, refuted.what());
-  } catch (const Undecided& undecided) {
-    found.add(Verdict::undecided, undecided.what());
-  }
-  const auto stands = [&] {
-    try {
-      return is_alone();
-    } catch (const Undecided&) {
-      return false;
-    }
-  };
-  if (found.finding().verdict == Verdict::refuted && !stands()) {
-    require_one();
-    throw Undecided(found.first_refuted() + ", but another motion within the claimed errors may be as claimed");
-  }
-  report = found;
-}
-
 /// The periodic motion that a certificate claims, resting or not. Throws Refuted or Undecided.
 [[nodiscard]] Orbit claimed_orbit(const Certificate& certificate, const Scene& scene);
-/// Refutes a claim if no motion of its errors meets its events.
-void require_possible_motion(const Certificate& certificate, const Scene& scene);
-/// Whether no motion of the claimed errors but the found one is periodic with the claimed events.
-[[nodiscard]] bool is_only_claimed(const Certificate& certificate, const Scene& scene, const Orbit& orbit);
-[[nodiscard]] bool is_only_claimed(const Certificate& certificate, const Scene& scene, const Response& found);
 
 }  // namespace verify

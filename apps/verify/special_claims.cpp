@@ -180,12 +180,10 @@ void check_smallest_period(const Certificate& certificate, const Curve& curve) {
     if (certificate.periods % parts != 0 || cycle.differs_after(share)) continue;
     Certificate shorter = certificate;
     shorter.periods /= parts, shorter.events.resize(certificate.events.size() / share);
-    for (Claimed* const claimed : {&shorter.start_x, &shorter.start_v, &shorter.special->parameter})
-      claimed->error = Number((Ball(1.2) * claimed->error.ball()).upper().near());
     const std::string told =
         "periods: claimed " + std::to_string(certificate.periods) + ", found " + std::to_string(shorter.periods);
     try {
-      if (!Curve(shorter).covers(curve)) throw Undecided(told);
+      const Curve found(shorter);
     } catch (const Refuted&) {
       throw Undecided(told);
     }

@@ -1,6 +1,6 @@
 """False certificates that clatter-verify once proved are refuted, for the reason why they are false.
 
-forged_certificates.jsonl holds them, what is true of the same motion as a control, and true ones that were refuted.
+forged_certificates.jsonl holds them, and what is true of the same motion as a control.
 
 Environment: CLATTER and CLATTER_VERIFY, the programs.
 """
@@ -44,10 +44,6 @@ REASONS = {  # what is said of each, None: it is true, and proved
     "a motion within one soft stop": None,
     "the symmetry of a free motion before one stop": "symmetric: the scene isn't, to its last digit",
     "the symmetry of a free motion between two stops": None,
-    "another motion than that which Newton's steps find": "start, v: claimed 0.6589.*, but another motion",
-    "a motion within a soft stop, or outside": "on which side of a stop the motion starts",
-    "a mass that is held where its claimed place begins": None,
-    "a mass that is held elsewhere": "start, x: claimed 0.500003",
     "a fold of a restitution above 1": r"parameter: the found one makes 1 - R of the scene \[-0\.0006368",
     "a graze of a negative damping": r"parameter: the found one makes h of the scene \[-9\.9478",
     "a graze at a value that one of two numbers has": r"parameter: claimed 0\.1 to 1e-10, .* at \[0\.9571409191",
@@ -56,8 +52,6 @@ UNDECIDED = {
     "the fastest impact, beside a chatter that hides a faster one",
     "a fold, but for friction",
     "the symmetry of a free motion before one stop",
-    "another motion than that which Newton's steps find",
-    "a motion within a soft stop, or outside",
 }
 
 
