@@ -96,7 +96,6 @@ certificates::Tally CertifiedFile::certify(const std::vector<std::size_t>& point
   const auto whole = depends_on_others(sweep_) ? std::optional(run(sweep_, 0)) : std::nullopt;
   certificates::Tally tally;
   point::ThreadScratch scratch;
-  const sweep::Chains chains(sweep_);
   const auto certify_point = [&](const point::Problem& problem, std::size_t chosen, const Anew& anew, std::size_t ran) {
     certificates::CertifiedPoint found = certificates::certified(problem, anew.known[ran], scratch);
     const std::string_view only = found.certificate ? "" : "status";  // of other results nothing is claimed
@@ -106,26 +105,29 @@ certificates::Tally CertifiedFile::certify(const std::vector<std::size_t>& point
     if (found.certificate && found.differs.empty())
       take(certificates::certificate_text(*found.certificate, place_of(sweep_, points[chosen])));
   };
+  const sweep::Chains chains(sweep_);
   for (std::size_t chain = 0; chain < chains.count; ++chain) {
-    const auto chosen_at = [&](std::size_t i) { return std::ranges::lower_bound(points, chains.point(chain, i)); };
-    const auto is_chosen = [&](std::size_t i) {
-      return chosen_at(i) != points.end() && *chosen_at(i) == chains.point(chain, i);
-    };
-    std::size_t length = chains.length;  // up to the last point that is chosen
-    while (length > 0 && !is_chosen(length - 1)) --length;
+    std::vector<std::optional<std::size_t>> chosen(chains.length);  // which of `points`, by the place in the chain
+    std::size_t length = 0;                                         // up to the last of them
+    for (std::size_t i = 0; i < chains.length; ++i) {
+      const auto found = std::ranges::lower_bound(points, chains.point(chain, i));
+      if (found == points.end() || *found != chains.point(chain, i)) continue;
+      chosen[i] = static_cast<std::size_t>(found - points.begin()), length = i + 1;
+    }
     if (length == 0) continue;
     const sweep::Sweep alone = chain_alone(sweep_, chains, chain);
+    const sweep::Chains chain_of_alone(alone);
     const auto of_chain = whole ? std::nullopt : std::optional(run(alone, 1));
     const Anew& anew = whole ? *whole : *of_chain;
     std::optional<point::End> end;
     Units units_of_end{};
     for (std::size_t i = 0; i < length; ++i) {
-      const std::size_t ran = whole ? chains.point(chain, i) : sweep::Chains(alone).point(0, i);
+      const std::size_t ran = whole ? chains.point(chain, i) : chain_of_alone.point(0, i);
       point::Problem problem = problem_at(sweep_, chains.point(chain, i));
       if (sweep_.follow) sweep::start_from(problem, end, units_of_end);
-      if (is_chosen(i)) certify_point(problem, static_cast<std::size_t>(chosen_at(i) - points.begin()), anew, ran);
-      end = failed(anew.known[ran].status) ? std::nullopt
-                                           : std::optional(sweep::end_for_next(problem, anew.known[ran].end));
+      if (chosen[i]) certify_point(problem, *chosen[i], anew, ran);
+      const certificates::KnownResult& known = anew.known[ran];
+      end = failed(known.status) ? std::nullopt : std::optional(sweep::end_for_next(problem, known.end));
       units_of_end = problem.units;
     }
   }

@@ -71,7 +71,7 @@ word = true
 stability = true
 energy = true
 """
-# without impacts, so that each mirror image settles as its original does
+# half of the starts are mirror images of the others, and not run: their results are those of the others, mirrored
 STARTS = """[scene]
 f = 0.5
 h = 0.1
