@@ -70,8 +70,7 @@ class Follower {
       record_.meet(*from.special, record_.branch());
       start.tangent = *first;
       record_.add(record_.point(equations, start));
-      walk(equations, start, from.special);
-      return;
+      return walk(equations, start, from.special);
     }
     if (!from.special) return walk_both_ways(equations, start_near(equations, start.at, settings_.tolerance));
     // the motion that another branch was born on
@@ -168,6 +167,7 @@ class Follower {
     const bool born = met && note_birth(equations, *met, step);
     // in its birth a branch turns round, and so do all its measures: that is no fold of it, and no maximum
     std::erase_if(found, [&](const FoundPoint& f) {
+      if (slip_vanishes_beside(any_equations(), equations, f.point, settings_.tolerance)) return !birth_at(f.kind);
       if (f.kind != SpecialKind::fold) return false;
       const auto is_near = [&](double turn) { return std::abs(f.point.at.back() - turn) <= beside_singular; };
       return born || std::ranges::any_of(turns_at_, is_near) ||

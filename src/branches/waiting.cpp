@@ -7,6 +7,7 @@
 
 #include "branches/start.hpp"
 #include "branches/walk/graze.hpp"
+#include "branches/walk/halves.hpp"
 
 namespace clatter::branches {
 
@@ -89,26 +90,17 @@ bool leaves_range(const CurvePoint& start, const BranchSettings& settings) {
 
 namespace {
 
-/// Free motion under dry friction may be its own mirror image in a scene that isn't, such as one with a single stop out
-/// of reach. If its halts change in a special point, those of both halves do at once, and each alone may come earlier
-/// or later by its own equations: the tangent of the half, as that of the whole.
+/// The tangent of free motion that is its own mirror image, kept as a whole, by that of its half: each half alone may
+/// come to where its halts change earlier or later by its own equations.
 std::optional<Vector> tangent_of_both_halves(const OrbitEquations& equations, const Waiting& from, const Vector& axis) {
-  constexpr double same = 1e-6;
-  const Orbit half = from.orbit.half_if_same(same, from.scene.oscillator.stiffness != 0);
-  if (from.orbit.mirrored || !half.mirrored || 2 * half.size() != from.orbit.size()) return std::nullopt;
-  if (half.size() == 0 || !std::ranges::all_of(half.impacts, halts, &OrbitImpact::event)) return std::nullopt;
-  const OrbitEquations of_half{from.scene, half, equations.axes(), equations.speed_unit()};
+  const auto half = half_of_free_slips(from.scene, from.orbit);
+  if (!half) return std::nullopt;
+  const OrbitEquations of_half{from.scene, *half, equations.axes(), equations.speed_unit()};
   const auto first = static_cast<std::ptrdiff_t>(of_half.first_axis());
   Vector half_axis(axis.begin(), axis.begin() + first);
   half_axis.push_back(axis.back());
-  const auto along = tangent(of_half, of_half.unknowns_of(from.scene, half), half_axis);
-  if (!along) return std::nullopt;
-  Vector both(along->begin(), along->begin() + first);
-  for (std::size_t i = 0; i < of_half.first_axis(); ++i) both.push_back(i % 2 == 0 ? (*along)[i] : -(*along)[i]);
-  both.push_back(along->back());
-  const double length = std::sqrt(product(both, both));
-  for (double& x : both) x /= length;
-  return both;
+  const auto along = tangent(of_half, of_half.unknowns_of(from.scene, *half), half_axis);
+  return along ? std::optional(along_both_halves(*along)) : std::nullopt;
 }
 
 }  // namespace

@@ -145,6 +145,55 @@ switch = 1
 max_points = 600
 """
 
+# a slip between two sticks vanishes just at the crest of the force, where rounding decides what else is no motion there
+AT_CREST = """[{section}]
+{unit}phase = 0.0
+x0 = 0.4044273592572536
+v0 = 0.5297350587291192
+stop_lower = -1.3714669177152927
+R_lower = 0.4115305362196191
+stop_upper = 1.3714669177152927
+R_upper = 0.4115305362196191
+load = 0.0
+[observe]
+harmonics = 1
+[branch]
+along = "{along}"
+switch = 1
+max_points = 600
+"""
+OF_SCENE = """h = 0.0
+f = 1
+nu = 0.3157538814984172
+stiffness = 1.0
+friction = 0.02373261707344434
+"""
+OF_MACHINE = """mass = 0.37
+damping = 0.0
+force = 0.37
+stiffness = 0.37
+frequency = 0.05025379104092566
+friction = 0.008781068317174404
+"""
+
+# free motion that is its own mirror image, beside a single stop out of reach: both of its halves begin to turn at once
+BOTH_HALVES = """[scene]
+h = 0.0
+f = -1
+nu = 0.5646666869213239
+stiffness = 2.3918801393133364
+x0 = 1.5231124708146542
+v0 = 0.6240157532954864
+stop_upper = 1.8196261146287198
+R_upper = 0.557553046398686
+friction = 0.10076018181371069
+[branch]
+along = "nu"
+range = [0.47996668388312536, 0.6493666899595225]
+switch = 1
+max_points = 600
+"""
+
 
 class BranchAgain(BranchRuns):
     def found(self, parameter, *words):
@@ -239,6 +288,40 @@ class BranchAgain(BranchRuns):
         born = asymmetric & (gaps > 3.0) & (gaps < 3.719)
         self.assertGreater(born.sum(), 10)
         self.assertTrue(stable[born].all())
+
+    def specials(self, parameter, scale=1.0):
+        with h5py.File(self.directory / "b.h5") as file:
+            kinds, values = file["special_kind"][()], file[f"special_{parameter}"][()] * scale
+        return list(zip(kinds, values))
+
+    def test_a_slip_that_vanishes_at_the_crest_of_the_force_is_a_release_tangency_in_any_units(self):
+        turn = 2 * np.pi
+        for section, unit, along, scale in (
+            ("scene", OF_SCENE, "nu", 1.0),
+            ("machine", OF_MACHINE, "frequency", turn),
+        ):
+            text = AT_CREST.format(section=section, unit=unit, along=along)
+            words = ("--set", f"branch.range=[{0.26839 / scale!r}, {0.36312 / scale!r}]")
+            self.found(along, self.write("a.toml", text), *words)
+            specials = self.specials(along, scale)
+            kinds = b"maximum harmonic,grazing-sliding,switching-sliding,crossing-sliding,release tangency"
+            self.assertEqual([kind for kind, _ in specials], [*kinds.split(b","), b"grazing-sliding"], section)
+            values = [value for _, value in specials[-2:]]
+            np.testing.assert_allclose(values, (0.3351399839334, 0.343543197101), rtol=1e-11)
+
+    def test_halves_of_free_motion_that_change_at_once_in_a_scene_with_one_stop_do_so_either_way(self):
+        found = self.found("nu", self.write("a.toml", BOTH_HALVES))
+        (self.directory / "b.h5").rename(self.directory / "all.h5")
+        with h5py.File(self.directory / "all.h5") as file:
+            branch = file["branch"][()]
+        self.assertEqual(len(found), 3)
+        for number in range(3):
+            points = np.flatnonzero(branch == number)
+            again = self.found("nu", "a.toml", "--from", "all.h5", "--where", f"point={points[len(points) // 2]}")
+            self.assert_same(found, again)
+            (first, a), (second, b) = sorted(self.specials("nu"))
+            self.assertEqual((first, second), (b"grazing-sliding", b"switching-sliding"), number)
+            np.testing.assert_allclose((a, b), (0.58611434973554, 0.5027470584411), rtol=1e-11)
 
     def test_each_branch_leads_to_the_others(self):
         for config in ("branch", "soft_branch"):

@@ -315,11 +315,18 @@ std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narr
   if (hardly_slips(scene, orbit, about_to_cease))
     return {{SpecialKind::motion_ceases, orbit, level(Kind::tangency, 0, orbit.impacts[0].side)}};
   std::vector<HaltChange> changes;
+  // as a slip vanishes, which violation is found is up to rounding, and its equations may hold there, too
+  if (const auto change = vanishing_slip(equations, found.last_good)) changes.push_back(*change);
   for (const Violation& violation : violations)
     if (const auto change = of_violation(equations, found.beyond, violation)) changes.push_back(*change);
-  if (const auto change = vanishing_slip(equations, found.last_good)) changes.push_back(*change);
   add_releases_at_crest(equations, found.last_good, changes);
   return changes;
+}
+
+bool slip_vanishes_beside(const Equations& builder, const OrbitEquations& walked, const CurvePoint& at,
+                          double tolerance) {
+  const auto change = vanishing_slip(walked, at);
+  return change && exact_change(builder, walked.scene_at(at.at), *change, beside_singular, tolerance);
 }
 
 }  // namespace clatter::branches

@@ -43,4 +43,9 @@ struct HaltChange {
 [[nodiscard]] std::optional<ExactGraze> exact_change(const Equations& equations, const FollowedScene& near,
                                                      const HaltChange& change, double within, double tolerance);
 
+/// Whether a slip is about to vanish so near that the parameter has no digits between there and here: then it may turn,
+/// and measures with it, by rounding alone.
+[[nodiscard]] bool slip_vanishes_beside(const Equations& builder, const OrbitEquations& walked, const CurvePoint& at,
+                                        double tolerance);
+
 }  // namespace clatter::branches

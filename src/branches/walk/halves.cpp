@@ -1,5 +1,7 @@
 #include "branches/walk/halves.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace clatter::branches {
@@ -74,6 +76,24 @@ std::optional<MetHalves> halves_met(const OrbitEquations& equations, const Walk&
   if (!zero) return std::nullopt;
   const Orbit orbit = equations.orbit_at(zero->at);
   return MetHalves{*std::move(zero), middle_of(*first_half(orbit, symmetric_scene), orbit)};
+}
+
+std::optional<Orbit> half_of_free_slips(const FollowedScene& scene, const Orbit& orbit) {
+  constexpr double same = 1e-6;
+  const Orbit half = orbit.half_if_same(same, scene.oscillator.stiffness != 0);
+  if (orbit.mirrored || !half.mirrored || 2 * half.size() != orbit.size()) return std::nullopt;
+  if (half.size() == 0 || !std::ranges::all_of(half.impacts, halts, &OrbitImpact::event)) return std::nullopt;
+  return half;
+}
+
+Vector along_both_halves(const Vector& along_half) {
+  Vector both(along_half.begin(), along_half.end() - 1);
+  const std::size_t size = both.size();
+  for (std::size_t i = 0; i < size; ++i) both.push_back(i % 2 == 0 ? along_half[i] : -along_half[i]);
+  both.push_back(along_half.back());
+  const double length = std::sqrt(product(both, both));
+  for (double& x : both) x /= length;
+  return both;
 }
 
 }  // namespace clatter::branches

@@ -23,4 +23,11 @@ struct MetHalves {
 [[nodiscard]] bool is_turn_of_birth(const OrbitEquations& equations, const Walk& walk, double length,
                                     bool symmetric_scene);
 
+/// The half of free motion under dry friction that is its own mirror image. It may be in a scene that isn't, such as
+/// one with a single stop out of reach, where it is kept as a whole. If its halts change, those of both halves do at
+/// once, and the equations in which each may do so by itself are singular, or nearly. Nothing if it is no such motion.
+[[nodiscard]] std::optional<Orbit> half_of_free_slips(const FollowedScene& scene, const Orbit& orbit);
+/// A unit vector of changes of such a motion from that of its half, with one parameter.
+[[nodiscard]] Vector along_both_halves(const Vector& along_half);
+
 }  // namespace clatter::branches

@@ -7,6 +7,7 @@
 #include "branches/equations/flight.hpp"
 #include "branches/equations/newton.hpp"
 #include "branches/walk/ceasing.hpp"
+#include "branches/walk/halves.hpp"
 #include "branches/walk/violation.hpp"
 
 namespace clatter::branches {
@@ -158,10 +159,9 @@ std::optional<Lasting> with_lasting(const Equations& equations, const FollowedSc
   return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
-                             const Opening& opening, double tolerance) {
+/// A motion in which something has begun at the event of the opening alone, or where its equations find another one.
+std::optional<Opened> opened_once(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
+                                  const Opening& opening, double tolerance) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
   const OrbitImpact& event = orbit.impacts[opening.event];
   const double of_stop = halts(event.event) ? 0.0 : p.soft_stop(event.side).stiffness;
@@ -177,6 +177,22 @@ std::optional<Opened> opened(const Equations& equations, const FollowedScene& sc
     if (auto along = tangent(there, lasting->at, longer)) return Opened{lasting->orbit, lasting->at, *std::move(along)};
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
+                             const Opening& opening, double tolerance) {
+  const auto half = half_of_free_slips(scene, orbit);
+  if (!half) return opened_once(equations, scene, orbit, opening, tolerance);
+  const auto begun = opened_once(equations, scene, *half, {opening.kind, opening.event % half->size()}, tolerance);
+  if (!begun) return std::nullopt;
+  const OrbitEquations of_half = equations(begun->orbit, {});
+  const Orbit both = of_half.orbit_at(begun->at).whole();
+  const OrbitEquations there = equations(both, {});
+  Vector at = there.unknowns_of(of_half.scene_at(begun->at), both);
+  if (violation(there, at)) return std::nullopt;
+  return Opened{both, std::move(at), along_both_halves(begun->tangent)};
 }
 
 }  // namespace clatter::branches
