@@ -35,12 +35,13 @@ class Neighbourhood {
         have_met_(have_met) {}
 
   template <class A>
-  void arc(const A& arc, double tau, double duration) {
+  void arc(const A& arc, double, double duration) {
     if (!holds_) return;
-    const double begin = rate_ * tau, length = rate_ * duration;
+    const double length = rate_ * duration;
     field_ = Field::of(arc.constants(), rate_);
     if (!std::exchange(begun_, true)) begin_beside_stop(in_units(arc.start()), field_.growth(length));
-    grow(begin, begin + length);
+    const double begin = std::exchange(now_, now_ + length);
+    grow(begin);
     const double from = std::max(0.0, clear_from_ - begin);
     if (approached_ == Side::none && from < length) clear(arc, begin, from, length);
     advance(arc.constants(), duration);
@@ -50,9 +51,8 @@ class Neighbourhood {
   void rest(const Rest&) { holds_ = false; }  // which impacts of a chatter are taken changes with the start
   void impact(const Impact& impact) {
     if (!holds_) return;
-    const Impact same = {rate_ * impact.time,  impact.side,     impact.before / rate_,
-                         impact.after / rate_, impact.position, impact.turns};
-    holds_ = approached_ == same.side && same.time >= clear_from_ && rebound(same);
+    const Impact same = {now_, impact.side, impact.before / rate_, impact.after / rate_, impact.position, impact.turns};
+    holds_ = approached_ == same.side && now_ >= clear_from_ && rebound(same);
   }
 
   /// Whether the proof holds up to here; not while the mass is so near a stop that some of the motions may have met it.
@@ -67,11 +67,15 @@ class Neighbourhood {
   [[nodiscard]] const Ellipse& remainder() const { return remainder_; }
 
  protected:
-  /// The beginning of a flight from a stop: its speed, the acceleration away from it if all motions have had their
-  /// impact there, else 0, and the bound of accelerations; those impacts are over within `waited`.
+  /// A flight from a stop: the speed at its beginning, the acceleration away from the stop if all motions have had
+  /// their impact there, else 0, and the bound of accelerations; those impacts are over within `waited`.
   struct Departure {
-    double time, speed, pull, acceleration, waited;
+    double speed, pull, acceleration, waited;
   };
+  /// Begins to count time anew, at an event that all other instants lie before.
+  void restart() { now_ = clear_from_ = 0; }
+  /// How far the time since the last event, and between two instants since then, may be off.
+  [[nodiscard]] double clock_rounding() const { return 4 * epsilon<double>() * now_; }
   /// Quantities in the unit of time.
   [[nodiscard]] double acceleration(double a) const { return a / (rate_ * rate_); }
   [[nodiscard]] Motion<double> in_units(Motion<double> m) const {
@@ -98,7 +102,7 @@ class Neighbourhood {
       const Stop<double> stop = stop_at<double>(stops_, side);
       if (!(std::abs(start.x - stop.position) <= growth * reach_)) continue;
       if (stop.into(start.v) < 0 || (have_met_ && start.v == 0)) {
-        holds_ = depart({0, std::abs(start.v), have_met_ ? -stop.into(start.a) : 0.0, std::abs(start.a), 0});
+        holds_ = depart({std::abs(start.v), have_met_ ? -stop.into(start.a) : 0.0, std::abs(start.a), 0});
         return;
       }
       if (have_met_) approached_ = side, approached_at_ = 0.0;
@@ -125,10 +129,9 @@ class Neighbourhood {
     const double a_before = force - 2 * field_.h * impact.before,
                  a_after = force - 2 * friction_ - 2 * field_.h * impact.after;
     const double a = std::max(std::abs(a_before), std::abs(a_after)),
-                 c = std::max(1.0, std::abs(field_.k)) + 2 * field_.h, wait = 2 * reach_ / u;
+                 c = std::max(1.0, std::abs(field_.k)) + 2 * field_.h, wait = 2 * reach_ / u + clock_rounding();
     const LocalBounds near = field_.near(u, a, wait);
-    if (!(near.acceleration * wait + near.growth * reach_ <= u / 2 && impact.time - approached_at_ <= wait))
-      return false;
+    if (!(near.acceleration * wait + near.growth * reach_ <= u / 2 && now_ - approached_at_ <= wait)) return false;
 
     const double x = first_order_.x() + remainder_.x() + rounding_, v = first_order_.v() + remainder_.v() + rounding_,
                  d = size();
@@ -141,36 +144,36 @@ class Neighbourhood {
     first_order_ = first_order_.mapped(saltation), remainder_ = remainder_.mapped(saltation);
     const double rest = norm(rest_x, rest_v);
     remainder_.add(Ellipse::disc(rest + c * near.growth * s * (first_order_.size() + remainder_.size() + rest)));
-    return depart({impact.time, R * u, -stop.into(a_after), a, wait});
+    restart();
+    return depart({R * u, -stop.into(a_after), a, wait});
   }
 
   /// Whether the mass leaves the stop, and does not meet the other one, before the flight is examined.
   [[nodiscard]] bool depart(const Departure& departure) {
-    begin_flight(departure.time,
-                 field_.near(departure.speed, departure.acceleration, departure.waited).growth * size());
+    begin_flight(field_.near(departure.speed, departure.acceleration, departure.waited).growth * size());
     departure_ = departure;
     return leaves();
   }
   [[nodiscard]] bool leaves() {
-    const auto& [time, speed, pull, acceleration, waited] = departure_;
+    const auto& [speed, pull, acceleration, waited] = departure_;
     return leaves_after(std::max(waited, 2 * reach_ / speed), false) ||
            (pull > 0 && leaves_after(std::max(waited, 2 * std::sqrt(reach_ / pull)), true));
   }
   /// After this wait all motions are more than their differences away from the stop: either all keep half of their
   /// speed, or all are pulled away, with at least half of the acceleration.
   [[nodiscard]] bool leaves_after(double wait, bool by_pull) {
-    const auto& [time, speed, pull, acceleration, waited] = departure_;
+    const auto& [speed, pull, acceleration, waited] = departure_;
     const LocalBounds away = field_.near(speed, acceleration, wait);
-    approached_ = Side::none, clear_from_ = time + wait;
+    approached_ = Side::none, clear_from_ = flight_from_ + wait;
     const bool goes = by_pull ? away.jerk * wait + (std::abs(field_.k) + 2 * field_.h) * reach_ <= pull / 2
                               : away.acceleration * wait + reach_ <= speed / 2;
     return goes && (speed + away.acceleration * wait) * wait + reach_ < stops_.upper - stops_.lower;
   }
   /// The bound of differences in a flight, where it begins.
-  void begin_flight(double time, double reach) { flight_from_ = time, reach_ = least_reach_ = reach; }
+  void begin_flight(double reach) { flight_from_ = now_, reach_ = least_reach_ = reach; }
   /// Lets it grow to one that holds to the end of an arc (eq. 48); it has to hold from the departure on.
-  void grow(double begin, double end) {
-    const double growth = field_.growth(end - flight_from_);
+  void grow(double begin) {
+    const double growth = field_.growth(now_ - flight_from_);
     if (!(growth > 1)) return;
     reach_ = growth * least_reach_;
     if (clear_from_ > begin) holds_ = holds_ && leaves();
@@ -183,7 +186,8 @@ class Neighbourhood {
   double rounding_;
   double reach_;                  ///< bound of the energy norm of differences in the present flight
   double least_reach_ = reach_;   ///< the same at its beginning
-  double flight_from_ = 0.0;      ///< which is then; or since the last reversal under friction
+  double now_ = 0.0;              ///< the time since the last event: that since the start has fewer digits
+  double flight_from_ = 0.0;      ///< when it began, which is then; or since the last reversal under friction
   double rate_;                   ///< times, speeds and accelerations are those in units of 1/`rate_`
   Departure departure_{};         ///< the last one
   double clear_from_ = 0.0;       ///< until then a flight is near the stop that it began on

@@ -23,36 +23,39 @@ class RoughNeighbourhood : public SoftNeighbourhood {
 
   template <class A>
   void arc(const A& arc, double tau, double duration) {
+    const double begin = now_;
     SoftNeighbourhood::arc(arc, tau, duration);
     if (!holds_) return;
-    const double begin = rate_ * tau, length = rate_ * duration;
-    keep_moving(arc, begin, length);
-    if (moving_from_ <= begin + length) least_bound_ = 0;
+    keep_moving(arc, begin, now_ - begin);
+    if (moving_from_ <= now_) least_bound_ = 0;
   }
   void rest(const Rest&) { holds_ = false; }  // a stick forgets the speed, at an instant that changes with the start
   void impact(const Impact& impact) {
-    if (all_move(rate_ * impact.time)) SoftNeighbourhood::impact(impact);
+    if (all_move()) SoftNeighbourhood::impact(impact);
   }
   void touch(const Touch& touch) {
-    if (all_move(rate_ * touch.time)) SoftNeighbourhood::touch(touch);
+    if (all_move()) SoftNeighbourhood::touch(touch);
   }
   void separate(const Separation& separation) {
-    if (all_move(rate_ * separation.time)) SoftNeighbourhood::separate(separation);
+    if (all_move()) SoftNeighbourhood::separate(separation);
   }
   void reversal(const Reversal& reversal) {
     if (!holds_) return;
-    const Reversal same{rate_ * reversal.time, reversal.position, acceleration(reversal.before),
-                        acceleration(reversal.after)};
-    holds_ = slows_ && approached_ == Side::none && same.time >= std::max(clear_from_, moving_from_) && turn(same);
+    const Reversal same{now_, reversal.position, acceleration(reversal.before), acceleration(reversal.after)};
+    holds_ = slows_ && approached_ == Side::none && now_ >= std::max(clear_from_, moving_from_) && turn(same);
     slows_ = false;
   }
 
   /// Whether the proof holds up to here; not while some of the motions may have turned back that others have not.
-  [[nodiscard]] bool holds() const { return SoftNeighbourhood::holds() && !slows_ && moving_from_ <= end_; }
+  [[nodiscard]] bool holds() const { return SoftNeighbourhood::holds() && !slows_ && moving_from_ <= now_; }
 
  private:
-  /// Whether no motion turns back about the time of another event.
-  [[nodiscard]] bool all_move(double time) { return holds_ = holds_ && !slows_ && time >= moving_from_; }
+  /// Whether no motion turns back about the time of another event, which is now.
+  [[nodiscard]] bool all_move() {
+    holds_ = holds_ && !slows_ && now_ >= moving_from_;
+    moving_from_ = 0;
+    return holds_;
+  }
 
   /// Finds whether all speeds are larger than 0 for all of a slip, from the end of a reversal on, or until one may
   /// follow.
@@ -76,10 +79,10 @@ class RoughNeighbourhood : public SoftNeighbourhood {
     const double before = std::abs(reversal.before), after = std::abs(reversal.after), least = std::min(before, after);
     const double jump = std::abs(reversal.after - reversal.before), push = (before + after) / 2;
     const double c = std::abs(field_.k) / field_.weight + 2 * field_.h;  // bounds a - a of the others, over the norm
-    const double d = bound_, wait = 2 * d / before;
+    const double d = bound_, wait = 2 * d / before + clock_rounding();
     const LocalBounds near = field_.near(0, std::max(before, after), wait);
     const double off = near.jerk * wait + c * near.growth * d;
-    const bool turns = off <= least / 2 && push - off > static_level_ && reversal.time - slows_from_ <= wait;
+    const bool turns = off <= least / 2 && push - off > static_level_ && now_ - slows_from_ <= wait;
     if (!turns) return false;
 
     const double late = (first_order_.v() + remainder_.v() + rounding_) / (before - off);  // |time between|
@@ -89,15 +92,16 @@ class RoughNeighbourhood : public SoftNeighbourhood {
     const Jacobian<double> saltation{1, 0, 0, reversal.after / reversal.before};
     first_order_ = first_order_.mapped(saltation), remainder_ = remainder_.mapped(saltation);
     remainder_.add(Ellipse(2 * rest_x * rest_x, 0, 2 * rest_v * rest_v));
-    return move_on(reversal.time, near.growth * (d + norm(field_.weight * rest_x, rest_v)), after, before, wait);
+    return move_on(near.growth * (d + norm(field_.weight * rest_x, rest_v)), after, before, wait);
   }
   /// Whether all motions then move back faster than their speeds differ, after a time that is no less than `wait`.
-  [[nodiscard]] bool move_on(double time, double d, double after, double before, double wait) {
+  [[nodiscard]] bool move_on(double d, double after, double before, double wait) {
     const double longer = std::max(wait, 4 * d / after);
     const LocalBounds away = field_.near(0, std::max(before, after), longer);
     const double c = std::abs(field_.k) / field_.weight + 2 * field_.h;
-    least_bound_ = d, moving_from_ = time + longer;
-    begin_flight(time, std::max(reach_, d));
+    restart();
+    least_bound_ = d, moving_from_ = longer;
+    begin_flight(std::max(reach_, d));
     return away.jerk * longer + c * away.growth * d <= after / 2;
   }
 

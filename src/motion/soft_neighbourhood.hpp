@@ -26,12 +26,10 @@ class SoftNeighbourhood : public Neighbourhood {
   template <class A>
   void arc(const A& arc, double tau, double duration) {
     if (!holds_) return;
-    const double begin = rate_ * tau;
-    end_ = begin + rate_ * duration;
     const Side pressing = arc.constants().stop.side, around = pressing != Side::none ? pressing : beyond(arc.start());
-    if (around != Side::none) return within(arc, begin, duration, around, pressing != Side::none ? contact : outrun);
+    if (around != Side::none) return within(arc, duration, around, pressing != Side::none ? contact : outrun);
     if (!begun_ && beside_soft_stop(arc.start())) return refuse();
-    if (mode_ != outside && mode_ != unknown) leave(arc, begin);
+    if (mode_ != outside && mode_ != unknown) leave(arc);
     mode_ = outside;
     Neighbourhood::arc(arc, tau, duration);
     holds_ = holds_ && (!leaving_ || stays_left());
@@ -46,17 +44,16 @@ class SoftNeighbourhood : public Neighbourhood {
     stop_ = soft_stop_at<double>(stops_, touch.side), leaving_ = false;
     const Mode from = std::exchange(mode_, contact);
     holds_ = from == (touch.from_outside ? outside : outrun) && approached_ == touch.side &&
-             cross(rate_ * touch.time, touch.velocity / rate_, from);
+             cross(touch.velocity / rate_, from);
   }
   void separate(const Separation& separation) {
     if (!holds_) return;
     const Mode from = std::exchange(mode_, outrun);
-    holds_ = from == contact && approached_ == separation.side &&
-             cross(rate_ * separation.time, separation.velocity / rate_, from);
+    holds_ = from == contact && approached_ == separation.side && cross(separation.velocity / rate_, from);
   }
 
   /// Whether the proof holds up to here; not while some of the motions may have had an event that others have not.
-  [[nodiscard]] bool holds() const { return Neighbourhood::holds() && clear_from_ <= end_; }
+  [[nodiscard]] bool holds() const { return Neighbourhood::holds() && clear_from_ <= now_; }
 
  protected:
   /// Where the mass is: between the stops, in contact with a soft one, or beyond its position without contact.
@@ -79,9 +76,9 @@ class SoftNeighbourhood : public Neighbourhood {
 
   /// Takes the differences over an arc beyond a soft stop's position, with `mode` contact or outrun.
   template <class A>
-  void within(const A& arc, double begin, double duration, Side side, Mode mode) {
+  void within(const A& arc, double duration, Side side, Mode mode) {
     const auto& constants = arc.constants();
-    const double length = rate_ * duration;
+    const double length = rate_ * duration, begin = std::exchange(now_, now_ + length);
     field_ = mode == contact ? in_its_norm(Field::of(constants, rate_)) : Field::of(constants, rate_);
     stop_ = soft_stop_at<double>(stops_, side);
     const double size = std::max(least_bound_, size_in(field_)) * field_.growth(length);
@@ -128,13 +125,13 @@ class SoftNeighbourhood : public Neighbourhood {
 
   /// Takes the differences to the other oscillator; false unless all motions cross the surface between the two once,
   /// and for good (eq. 59).
-  [[nodiscard]] bool cross(double time, double velocity, Mode from) {
+  [[nodiscard]] bool cross(double velocity, Mode from) {
     const double v = stop_.into(velocity), a = stop_.into(last_.a), q = from == outside ? 0 : stop_.relaxation();
     const double rate = (v + q * a) * (from == contact ? -1 : 1);
     const Passage before{q, rate, std::abs(v), std::abs(a)};
-    const double wait = 2 * bound_ * norm(1 / field_.weight, q) / rate,
+    const double wait = 2 * bound_ * norm(1 / field_.weight, q) / rate + clock_rounding(),
                  least = least_rate(before, field_, bound_, wait);
-    if (!(rate > 0 && least >= rate / 2 && time >= clear_from_ && time - approached_at_ <= wait)) return false;
+    if (!(rate > 0 && least >= rate / 2 && now_ >= clear_from_ && now_ - approached_at_ <= wait)) return false;
     const double s = change(q) / least, most = 2 * rate - least;  // |time between|, the largest rate
     if (!(s <= wait && (from != outrun || stays_beyond(before, wait, s)))) return false;
     const double jump = from == outside ? 2 * stop_.damping : 0;  // of the force over the rate, as the stop is touched
@@ -144,7 +141,8 @@ class SoftNeighbourhood : public Neighbourhood {
     const double bound = size_in(field_);
     double longer = std::max(wait, 3 * bound * norm(1 / field_.weight, q) / rate);
     if (from == contact) longer = std::max(longer, leaving_time(before.speed));
-    approached_ = Side::none, clear_from_ = time + longer;
+    restart();
+    approached_ = Side::none, clear_from_ = longer;
     return field_.near(after.speed, after.acceleration, longer).growth <= 1.5 &&
            least_rate(after, field_, bound, longer) >= rate / 2;
   }
@@ -187,11 +185,11 @@ class SoftNeighbourhood : public Neighbourhood {
   }
   /// Takes the motions out of the region beyond a soft stop's position, where nothing happens to them.
   template <class A>
-  void leave(const A& arc, double begin) {
+  void leave(const A& arc) {
     const Motion<double> start = in_units(arc.start());
     field_ = Field::of(arc.constants(), rate_), leaving_ = true;
     holds_ = mode_ == outrun && approached_ == Side::none &&
-             depart({begin, std::abs(start.v), 0, std::abs(start.a), std::max(0.0, clear_from_ - begin)});
+             depart({std::abs(start.v), 0, std::abs(start.a), std::max(0.0, clear_from_ - now_)});
   }
   /// Whether none of the motions that have just left the stop is pushed by it: the damper would have to pull, or the
   /// time after the separation isn't over.
@@ -211,10 +209,10 @@ class SoftNeighbourhood : public Neighbourhood {
     return first_order_.along(q) + remainder_.along(q) + rounding_ * (1 + q * std::max(1.0, field_.weight));
   }
 
-  SoftStop<double> stop_{};     ///< the one that the mass is beyond, or was last
-  Motion<double> last_{};       ///< the end of the last arc
-  double bound_ = 0, end_ = 0;  ///< of differences, in the norm of the present field; the time of that end
-  double least_bound_ = 0;      ///< that of differences about an event, which is larger than before or after it
+  SoftStop<double> stop_{};  ///< the one that the mass is beyond, or was last
+  Motion<double> last_{};    ///< the end of the last arc
+  double bound_ = 0;         ///< of differences, in the norm of the present field
+  double least_bound_ = 0;   ///< that of differences about an event, which is larger than before or after it
   Mode mode_ = unknown;
   bool leaving_ = false;  ///< the present flight began beyond a soft stop's position
 };

@@ -78,6 +78,59 @@ TEST(NeighbourhoodUnits, a_proof_is_the_same_in_all_units_of_time) {
   EXPECT_GT(refused, 200);
 }
 
+/// Tells an observer of a motion as of one that comes later, so that its clock has fewer digits.
+class Later {
+ public:
+  Later(RoughNeighbourhood& seen, double by) : seen_(seen), by_(by) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    seen_.arc(arc, begin + by_, length);
+  }
+  template <class A>
+  void in_housing(const A&, double, double) {}
+  template <class A>
+  void hold(const A&, const Rest&) {}
+  void rest(const Rest& rest) { seen_.rest(rest); }
+  void impact(const Impact& impact) { seen_.impact(later(impact)); }
+  void touch(const Touch& touch) { seen_.touch(later(touch)); }
+  void separate(const Separation& separation) { seen_.separate(later(separation)); }
+  void reversal(const Reversal& reversal) { seen_.reversal(later(reversal)); }
+  void strike(const Strike&) {}
+  void press(const Press&) {}
+
+ private:
+  template <class Event>
+  [[nodiscard]] Event later(Event event) const {
+    event.time += by_;
+    return event;
+  }
+
+  RoughNeighbourhood& seen_;
+  double by_;
+};
+
+/// Differences of rounding are passed at an impact in a time as short as an ulp of the clock after some periods.
+TEST(NeighbourhoodUnits, a_proof_around_rounding_holds_however_late_the_motion_is) {
+  int proved = 0;
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const Case any = any_case(i);
+    const auto holds = [&](double later_by) {
+      stepping::Exact<double, effects> integrator(any.scene);
+      RoughNeighbourhood neighbourhood(any.scene.stops, Ellipse::disc(4 * ulp), 4 * ulp,
+                                       any.scene.friction.static_level, 1);
+      Later later(neighbourhood, later_by);
+      State<double> state = any.from;
+      EXPECT_EQ(run_for(integrator, state, 1.7, later), stepping::Outcome::completed);
+      return neighbourhood.holds();
+    };
+    if (!holds(0)) continue;
+    ++proved;
+    for (const double later_by : {50.0, 300.0, 3000.0}) EXPECT_TRUE(holds(later_by)) << i << " " << later_by;
+  }
+  EXPECT_GT(proved, 300);
+}
+
 /// The norm of the propagator, a matrix of (Omega x, v).
 double norm_of(const Propagator<double>& p, double k, double weight) {
   const double b = weight * p.b, c = -k * p.b / weight;
