@@ -143,21 +143,27 @@ class Zeros:
 
     @staticmethod
     def told(near, zero, farther, j):
-        """What differs; of derivatives, which a curved result changes by more than rounding, from a straight line."""
-        for runs in (near, zero):  # a load takes the symmetry; the residual is rounding
+        """What differs from the value beside zero and from that on the straight line through two beside it: a result
+        that changes fast differs by more than rounding.
+        """
+        for runs in (near, zero, farther):  # a load takes the symmetry; the residual is rounding
             runs.values.pop("symmetric", None), runs.values.pop("energy_residual", None)
         plain = [name for name in zero.values if not name.startswith("d_")]
         slopes = sorted(set(zero.values) - set(plain))
         stretched = max(np.nan_to_num(np.abs(near[name][j])).max() for name in slopes)
-        told = differences(near, j, only(zero, plain), j, allowed=1e-6 + 10 * SMALL * stretched)
+        line = on_line(near, farther)
+        told, off_line = (
+            differences(runs, j, only(zero, plain), j, allowed=1e-6 + 10 * SMALL * stretched) for runs in (near, line)
+        )
+        told = [text for text in told if text.split()[0] in {other.split()[0] for other in off_line}]
         if near["impact_word"][j] != zero["impact_word"][j]:
             return told
         size = sizes(zero, "x")[j] + sizes(zero, "v")[j]
         for name in slopes:
             mine, its = np.atleast_1d(near[name][j]), np.atleast_1d(zero[name][j])
             unknown = np.isnan(mine) & np.isnan(its)
-            line = 2 * mine - np.atleast_1d(farther[name][j])
-            far = np.minimum(np.abs(mine - its), np.abs(line - its)) > 1e-4 * (np.abs(its) + size)
+            off = np.minimum(np.abs(mine - its), np.abs(np.atleast_1d(line[name][j]) - its))
+            far = off > 1e-4 * (np.abs(its) + size)
             if np.any(np.isnan(mine) != np.isnan(its)) or (stretched < 1e3 * (1 + size) and np.any(far & ~unknown)):
                 told.append(f"{name} {mine} for {its}")
         return told
@@ -188,6 +194,17 @@ class Zeros:
             mine, its = np.array(ends[0][name][1], float), np.array(ends[1][name][1], float)
             if not np.allclose(mine, its, rtol=1e-7, atol=1e-9, equal_nan=True):
                 self.failures.add("follow from no force", i, f"{name} {mine}, after f = {FAINT} {its}", text)
+
+
+def on_line(near, farther):
+    """The runs at zero, if all numbers changed by as much from there to `near` as from there to `farther`."""
+    values = {}
+    for name, mine in near.values.items():
+        its = farther.values[name]
+        is_number = getattr(mine, "dtype", None) == float and mine.shape == getattr(its, "shape", None)
+        with np.errstate(invalid="ignore"):  # -inf: the exponent of motion that rests
+            values[name] = 2 * mine - its if is_number else mine
+    return type(near)(values, near.logs)
 
 
 def only(runs, names):
