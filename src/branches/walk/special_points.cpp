@@ -30,6 +30,12 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
   const double turns_until = is_first ? step / 8 : 0.0;
   look(
       SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false, turns_until);
+  // so near to the graze of a soft stop, over the range, nothing tells the turn by a contact that has hardly begun
+  constexpr double beside_graze = 1e-12;
+  if (ends.ends_in_graze)
+    std::erase_if(found, [&](const FoundPoint& fold) {
+      return std::abs(fold.point.at.back() - there->at.back()) <= beside_graze;
+    });
   // if a halt of no length begins there, derivatives have no digits
   const bool begins_to_halt = is_first && std::ranges::any_of(equations.shape().impacts, halts, &OrbitImpact::event);
   const double begin = begins_to_halt ? 1e-3 * step : 0.0;

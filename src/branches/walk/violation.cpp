@@ -102,17 +102,21 @@ Flight<double> flight_after(const Orbit& orbit, std::size_t i) {
 /// Where two events of a soft stop are about to vanish, the proof may find a third one beside them: it is theirs.
 Violation told_apart(const SceneNumbers<double>& p, const Orbit& orbit, const Violation& found) {
   constexpr double about = 1e-6;  // rad: the force turns at about its square
+  const auto vanishes = [&](std::size_t i) {
+    const Flight<double> flight = flight_after(orbit, i);
+    return flight.may_vanish(p) && flight.end - flight.begin < about;
+  };
   if (found.kind == Violation::Kind::pulls) {
-    const Flight<double> flight = flight_after(orbit, found.impact);
-    if (!flight.may_vanish(p) || flight.end - flight.begin >= about) return found;
-    return {Violation::Kind::ends_early, found.impact, {}};
+    // a damper lets go of the mass once it stands, but for rounding, if it has hardly touched it
+    const bool separates = orbit.impacts[found.impact].event == EventKind::separation;
+    const std::size_t i = separates ? (found.impact + orbit.size() - 1) % orbit.size() : found.impact;
+    return vanishes(i) ? Violation{Violation::Kind::ends_early, i, {}} : found;
   }
   if (found.turning.event == EventKind::impact) return found;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const Flight<double> flight = flight_after(orbit, i);
     const double distance = std::remainder(found.turning.phase - flight.begin, orbit.advance());
-    if (flight.may_vanish(p) && flight.end - flight.begin < about && std::abs(distance) < 2 * about)
-      return {Violation::Kind::ends_early, i, {}};
+    if (vanishes(i) && std::abs(distance) < 2 * about) return {Violation::Kind::ends_early, i, {}};
   }
   return found;
 }
@@ -151,7 +155,10 @@ std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbi
         flight.may_vanish(of_scene) && !(flight.begin < flight.end))
       return Violation{Violation::Kind::ends_early, i, {}};
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (i != grazing && !points_right(orbit.impacts[i])) return Violation{Violation::Kind::pulls, i, {}};
+    if (i != grazing && !points_right(orbit.impacts[i])) {
+      const Violation pulls{Violation::Kind::pulls, i, {}};
+      return orbit.impacts[i].event == EventKind::separation ? told_apart(of_scene, orbit, pulls) : pulls;
+    }
   return with_arcs(scene, [&]<Effects E>() -> std::optional<Violation> {
     const Flights<double, E> flights{numbers_of<double>(scene)};
     const SceneNumbers<double>& p = flights.parameters();
