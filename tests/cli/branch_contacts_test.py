@@ -1,4 +1,4 @@
-"""Contacts with soft stops that appear and vanish along a branch."""
+"""Contacts that appear and vanish along a branch, so near to each other that a step leaps over them."""
 
 import unittest
 
@@ -52,6 +52,26 @@ range = [0.45051267131451866, 0.6095171435431723]
 switch = 1
 max_points = 3000
 """
+# Motion over seven periods that rests up to nu = 2.20331891, and again from 2.20331927 on.
+RESTS_TWICE = """[scene]
+h = 0.002335876010485675
+f = -1.0
+nu = 2.2033186088268626
+phase = 0.0
+load = 0.27036368159186586
+stiffness = 3.474670827070414
+x0 = -0.653799441547595
+v0 = -0.2922543362385541
+stop_lower = -0.653799441547595
+R_lower = 0.35965965308933445
+stop_upper = -0.16041342021551916
+R_upper = 0.8967392426866754
+[time]
+max_periods = 600
+[branch]
+along = "nu"
+range = [1.8728208175028331, 2.533816400150892]
+"""
 
 
 class BranchContacts(BranchRuns):
@@ -85,6 +105,15 @@ class BranchContacts(BranchRuns):
     def test_a_turn_that_nothing_tells_from_a_graze_is_no_fold(self):
         grazes = (0.4591852984863957, 0.50975738357246, 0.53413853378428)
         self.check(TURNS_BESIDE, grazes, (0.55905601244812,), (0, 3, 4))
+
+    def test_motion_that_rests_ends_before_a_gap_in_whatever_steps(self):
+        for step in (0.02, 2e-3, 1e-3, 1e-4):
+            name = self.write("a.toml", RESTS_TWICE)
+            (grazes, _), _ = self.grazes_and_folds(name, "--set", f"branch.largest_step={step}")
+            np.testing.assert_allclose(grazes, (2.2033180985267,), rtol=1e-13)
+            with h5py.File(self.directory / "b.h5") as file:
+                limits = np.sort(file["special_nu"][()][file["special_kind"][()] == b"chatter limit"])
+            np.testing.assert_allclose(limits, (2.2033180711412, 2.2033189121283), rtol=1e-13)
 
 
 if __name__ == "__main__":

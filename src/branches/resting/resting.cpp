@@ -129,6 +129,13 @@ Orbit half_of_resting(const Orbit& orbit, bool symmetric_scene) {
   return orbit;
 }
 
+std::vector<bool> are_letters(const Orbit& orbit) {
+  std::vector<bool> are(orbit.size(), false);
+  each_letter(orbit,
+              [&](const OrbitImpact& impact) { are[static_cast<std::size_t>(&impact - orbit.impacts.data())] = true; });
+  return are;
+}
+
 std::string letters_of(const Orbit& orbit) {
   std::string letters;
   each_letter(orbit, [&](const OrbitImpact& impact) {

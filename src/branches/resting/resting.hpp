@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "branches/equations/equations.hpp"
 #include "point/problem.hpp"
@@ -30,6 +31,9 @@ namespace clatter::branches {
 /// The impacts of a resting motion as letters, each chatter that ends in a rest as one: the impacts on the same stop
 /// before it that get slower and slower. A contact with a soft stop is one, too, and each renewal of it is another.
 [[nodiscard]] std::string letters_of(const Orbit& orbit);
+
+/// Of each impact, whether it is a letter, or the rest whose chatter is one.
+[[nodiscard]] std::vector<bool> are_letters(const Orbit& orbit);
 
 /// The speed of the slowest impact that is no part of such a chatter; infinite without one.
 [[nodiscard]] double slowest_letter(const Orbit& orbit);

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <vector>
 
 #include "branches/measures/measures.hpp"
-#include "branches/measures/moving.hpp"
 #include "branches/resting/resting.hpp"
 
 namespace clatter::branches {
@@ -20,11 +21,36 @@ std::ptrdiff_t renewals_of(const Orbit& orbit) {
   return std::ranges::count(orbit.impacts, EventKind::renewal, &OrbitImpact::event);
 }
 
-double shortest_rest(const Orbit& orbit) {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const OrbitImpact& impact : orbit.impacts)
-    if (impact.rest > 0) shortest = std::min(shortest, impact.rest);
-  return shortest;
+/// An impact that is a letter of its own, or the begin of a rest, which moves as the last impact of its chatter.
+struct Joint {
+  Along phase, before;
+  double rest;  ///< its length, rad; 0: an impact
+};
+std::vector<Joint> joints_of(const Orbit& orbit, const Moving& moving) {
+  std::vector<Joint> joints;
+  auto next = moving.impacts.begin();
+  const std::vector<bool> is_letter = are_letters(orbit);
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const OrbitImpact& impact = orbit.impacts[i];
+    if (impact.rest == 0) {
+      if (is_letter[i]) joints.push_back({next->phase, next->before, 0});
+      ++next;
+    } else if (next != moving.impacts.begin() && std::prev(next)->rests) {
+      joints.push_back({impact.phase, 0, impact.rest});
+      joints.back().phase.slope = std::prev(next)->phase.slope;
+    }
+  }
+  return joints;
+}
+
+/// Whether a rest doesn't vanish between two values of the parameter. Its length does so as a square root, as the force
+/// that presses the mass as the chatter ends does, too: by the tangents of the square.
+bool lasts(const Joint& one, const Joint& other, double ahead) {
+  const double release = (other.phase.value + other.rest - one.phase.value - one.rest) / ahead;  // nearly its slope
+  const double a = one.rest * one.rest, a_slope = 2 * one.rest * (release - one.phase.slope[0]);
+  const double b = other.rest * other.rest, b_slope = 2 * other.rest * (release - other.phase.slope[0]);
+  if (!(a_slope * ahead < 0 && b_slope * ahead > 0)) return true;
+  return a + a_slope * (b - a - b_slope * ahead) / (a_slope - b_slope) > 0;
 }
 
 }  // namespace
@@ -88,32 +114,72 @@ void RestingBranch::walk(Orbit here_orbit, int heading) {
   while (here != bound) {
     if (record_.is_full()) return record_.fail(point(here, here_orbit), max_points_spent);
     const double next = heading * (bound - here) < heading * step ? bound : here + step;
-    const std::optional<Orbit> there = orbit(next, stop_, here_orbit);
-    if (!there || letters_of(*there) != letters_of(here_orbit)) {
-      const auto [last, beyond] = change_between(here, next, here_orbit);
-      const std::optional<Orbit> good = orbit(last, stop_, here_orbit), other = orbit(beyond, stop_, here_orbit);
-      note_maxima(here, last, here_orbit);
-      if (!other || is_new_contact(*good, *other)) return end(last, *good, beyond, other, heading);
-      here_orbit = *other, here = beyond;  // an impact passed another in speed
-    } else {
-      note_maxima(here, next, here_orbit);
-      here_orbit = *there, here = next;
+    const auto [last, good, beyond] = stretch(here, here_orbit, next);
+    note_maxima(here, last, here_orbit);
+    here_orbit = good, here = last;
+    if (beyond) {
+      const std::optional<Orbit> other = orbit(*beyond, stop_, here_orbit);
+      if (!other || is_new_contact(good, *other)) return end(last, good, *beyond, other, heading);
+      here_orbit = *other, here = *beyond;  // an impact passed another in speed
     }
     record_.add(point(here, here_orbit));
   }
   record_.end(point(here, here_orbit), "range");
 }
 
-/// Neighbours, as good as, between which the letters of the motion change: the last value with those of `like`, and the
-/// next one.
-std::pair<double, double> RestingBranch::change_between(double good, double bad, const Orbit& like) const {
-  const std::string letters = letters_of(like);
-  for (;;) {
-    const double middle = good + (bad - good) / 2;
-    if (middle == good || middle == bad) return {good, bad};
-    const std::optional<Orbit> there = orbit(middle, stop_, like);
-    (there && letters_of(*there) == letters ? good : bad) = middle;
+std::optional<RestingBranch::Place> RestingBranch::place(double value, const Orbit& like) const {
+  const std::optional<Orbit> there = orbit(value, stop_, like);
+  if (!there || letters_of(*there) != letters_of(like)) return std::nullopt;
+  return Place{value, *there, moving_from_release(scene(value), *there, settings_.along)};
+}
+
+/// Whether the tangents at two places of a branch lead from one to the other.
+bool RestingBranch::are_joined(const Place& one, const Place& other) const {
+  constexpr double rough = 0.1;  // rad, of the unit of speeds, and of a rest
+  const double ahead = other.value - one.value;
+  const auto is_smooth = [&](const Along& from, const Along& to, double unit) {
+    return !(std::abs(to.value - from.value - ahead * (from.slope[0] + to.slope[0]) / 2) > rough * unit);
+  };
+  return std::ranges::equal(
+      joints_of(one.orbit, one.moving), joints_of(other.orbit, other.moving), [&](const Joint& from, const Joint& to) {
+        if (from.rest > 0)
+          return is_smooth(from.phase, to.phase, std::min(from.rest, to.rest)) && lasts(from, to, ahead);
+        return is_smooth(from.phase, to.phase, 1) && is_smooth(from.before, to.before, speed_unit_);
+      });
+}
+
+/// Goes on to a value of the parameter, or to where the letters of the motion change: halving finds neighbours, as good
+/// as. Beyond a gap the letters may be the same again, but the tangents don't lead there.
+RestingBranch::Stretch RestingBranch::stretch(double here, const Orbit& from, double to) const {
+  struct Goal {
+    double value;
+    std::optional<Place> alike;
+  };
+  const auto goal = [&](double value) { return Goal{value, place(value, from)}; };
+  Place good{here, from, moving_from_release(scene(here), from, settings_.along)};
+  std::vector<Goal> goals{goal(to)};
+  while (!goals.empty()) {
+    const Goal& next = goals.back();
+    const double middle = good.value + (next.value - good.value) / 2;
+    const bool are_neighbours = middle == good.value || middle == next.value;
+    if (next.alike && (are_neighbours || are_joined(good, *next.alike)))
+      good = *next.alike, goals.pop_back();
+    else if (are_neighbours)
+      return {good.value, good.orbit, next.value};
+    else
+      goals.push_back(goal(middle));
   }
+  return {good.value, good.orbit, {}};
+}
+
+/// Whether a rest is about to vanish, as a square root: it is short, or would have vanished, but for rounding.
+bool RestingBranch::has_rest_beside_limit(double value, const Orbit& orbit) const {
+  constexpr double is_short = 1e-3, beside = 1e-9;  // rad; of the range
+  const Moving moving = moving_from_release(scene(value), orbit, settings_.along);
+  return std::ranges::any_of(joints_of(orbit, moving), [&](const Joint& joint) {
+    return joint.rest > 0 &&
+           (joint.rest < is_short || joint.rest < 2 * beside * width_ * std::abs(joint.phase.slope[0]));
+  });
 }
 
 /// Whether of two neighbouring motions one has a rest, or an impact without speed, or an interrupted contact, that the
@@ -132,7 +198,8 @@ void RestingBranch::end(double last, const Orbit& good, double beyond, const std
   else if (other && rests_of(*other) == rests_of(good))
     kind = SpecialKind::graze;
   record_.add(at);
-  if (kind == SpecialKind::chatter_limit && std::min(shortest_rest(good), other ? shortest_rest(*other) : 1) > 1e-3)
+  if (kind == SpecialKind::chatter_limit && !has_rest_beside_limit(last, good) &&
+      !(other && has_rest_beside_limit(beyond, *other)))
     return record_.fail(at, "its impacts change at no special point; begin beyond");
   if (kind == SpecialKind::graze && waits_beyond(at, stop_, generation_)) return record_.end(at, "chatter limit");
   const auto [special, is_new] = record_.note(kind, at);

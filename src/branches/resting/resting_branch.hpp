@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "branches/measures/moving.hpp"
 #include "branches/waiting.hpp"
 
 namespace clatter::branches {
@@ -27,13 +28,29 @@ class RestingBranch {
   void wait_beyond(const BranchPoint& last, Side stop, double ahead, std::size_t special, std::int64_t generation);
 
  private:
+  /// The motion at a value of the parameter, and how it changes along it.
+  struct Place {
+    double value;
+    Orbit orbit;
+    Moving moving;
+  };
+  /// A branch goes on to a value of the parameter; if it ends there, `beyond` is the next number.
+  struct Stretch {
+    double last;
+    Orbit orbit;
+    std::optional<double> beyond{};
+  };
+
   [[nodiscard]] FollowedScene scene(double value) const { return changed(problem_, settings_.along, value); }
   [[nodiscard]] std::optional<Orbit> orbit(double value, Side stop, const Orbit& like) const;
   /// The motion with one rest more that begins at least so far ahead of a branch's end, and its parameter.
   [[nodiscard]] std::optional<std::pair<double, Orbit>> resting_ahead(const BranchPoint& last, Side stop,
                                                                       double ahead) const;
   [[nodiscard]] BranchPoint point(double value, const Orbit& orbit) const;
-  [[nodiscard]] std::pair<double, double> change_between(double good, double bad, const Orbit& orbit) const;
+  [[nodiscard]] std::optional<Place> place(double value, const Orbit& like) const;
+  [[nodiscard]] bool are_joined(const Place& one, const Place& other) const;
+  [[nodiscard]] Stretch stretch(double here, const Orbit& from, double to) const;
+  [[nodiscard]] bool has_rest_beside_limit(double value, const Orbit& orbit) const;
   [[nodiscard]] bool is_new_contact(const Orbit& one, const Orbit& other) const;
   void walk(Orbit orbit, int heading);
   void end(double last, const Orbit& good, double beyond, const std::optional<Orbit>& other, int heading);
