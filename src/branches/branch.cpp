@@ -59,7 +59,7 @@ class Follower {
     record_.begin(speed_unit_);
     generation_ = from.generation, turns_at_.clear();
     if (from.orbit.rests()) return resting().follow(from);
-    if (from.direction || from.opens) turns_at_.push_back(parameter(from.scene) / width_);
+    if (from.begins_across()) turns_at_.push_back(parameter(from.scene) / width_);
     if (from.opens) return follow_opened(from);
     const OrbitEquations equations = equations_for(from.orbit);
     CurvePoint start{equations.unknowns_of(from.scene, from.orbit), {}, 0.0};
@@ -161,8 +161,8 @@ class Follower {
   /// ends it.
   bool special_between(const OrbitEquations& equations, const Walk& walk, double step,
                        const std::optional<std::size_t>& from, bool grazes = false) {
-    std::vector<FoundPoint> found =
-        special_points_within(equations, walk, step, {from.has_value(), grazes}, problem_.observe);
+    std::vector<FoundPoint> found = special_points_within(
+        equations, walk, step, {from.has_value(), from && !turns_at_.empty(), grazes}, problem_.observe);
     const auto met = from ? std::nullopt : halves_met(equations, walk, step, symmetric_);
     const bool born = met && note_birth(equations, *met, step);
     // in its birth a branch turns round, and so do all its measures: that is no fold of it, and no maximum

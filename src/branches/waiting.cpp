@@ -39,6 +39,12 @@ std::string events_of(const Waiting& waiting) {
 
 }  // namespace
 
+bool Waiting::begins_across() const {
+  if (opens) return opens->kind != Opening::Kind::contact;
+  const auto turns = [](const OrbitImpact& event) { return presses(event.event) && event.before == 0; };
+  return direction || (special && std::ranges::any_of(orbit.impacts, turns));
+}
+
 void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Orbit& orbit) {
   const std::string events = events_of(orbit), image = events_of(orbit.mirror_image());
   std::erase_if(waiting, [&](const Waiting& one) {

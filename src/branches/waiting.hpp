@@ -24,6 +24,11 @@ struct Waiting {
   /// it is born. 0: it goes on whatever its heading is.
   int came = 0;
   bool passes = false;  ///< its special point lies within it: it is followed both ways
+
+  /// Whether it begins across the parameter, which by rounding may turn there: as what is born on another branch, a
+  /// slip that begins, or a touch that a renewal has turned into. A contact that begins is followed from where it
+  /// lasts.
+  [[nodiscard]] bool begins_across() const;
 };
 
 /// A branch that came to its end in a special point needn't begin there any more, nor does its mirror image.

@@ -98,12 +98,9 @@ class Flights {
   /// that at which the mass halts: negative if that is later, up to the push's crest. Infinite: it never or always is
   /// beyond. A crest that is the level to rounding is the release.
   [[nodiscard]] Number hold(const Number& place, const Number& phase, Side side) const {
-    using std::abs, std::atan, std::sqrt;
-    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-    const Number needed =
-                     p_.friction.static_level - sign_of(side) * constants_.constant_force(Number(p_.middle() + place)),
-                 sine = needed / abs(constants_.f);
-    if (sine >= 1 && sine <= 1 + rounding) return hold_to_crest(phase, side);
+    using std::atan, std::sqrt;
+    const Number sine = push_at_release(place, side);
+    if (is_at_crest(sine)) return hold_to_crest(phase, side);
     if (sine >= 1 || sine <= -1) return (sine > 0 ? 1 : -1) * std::numeric_limits<double>::infinity();
     return atan(sine / sqrt((1 - sine) * (1 + sine))) - of_push(phase, side);
   }
@@ -115,7 +112,7 @@ class Flights {
   [[nodiscard]] Number start(const Flight<Number>& flight) const {
     if (flight.leaves != EventKind::stick) return flight.begin;
     if (flight.from_crest) return flight.begin + hold_to_crest(flight.begin, flight.from);
-    return flight.begin + hold(flight.before, flight.begin, flight.from);
+    return flight.begin + hold_and_beyond(flight.before, flight.begin, flight.from);
   }
 
   /// Flies through stops, if it meets any.
@@ -181,6 +178,27 @@ class Flights {
   /// The constants of motion towards a side.
   [[nodiscard]] const motion::ArcConstants<Number, E>& towards(Side side) const {
     return slips_ ? slips_->towards(side) : constants_;
+  }
+
+  /// The push to a side at which a mass at a place is released, over that at its crest.
+  [[nodiscard]] Number push_at_release(const Number& place, Side side) const {
+    using std::abs;
+    const Number needed =
+        p_.friction.static_level - sign_of(side) * constants_.constant_force(Number(p_.middle() + place));
+    return needed / abs(constants_.f);
+  }
+  [[nodiscard]] static bool is_at_crest(const Number& push) {
+    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+    return push >= 1 && push <= 1 + rounding;
+  }
+  /// `hold`, which beyond the crest goes on as it comes there: as far behind it as a push as much weaker is before it.
+  /// That is no motion, but a step towards the crest passes through there: a release a way before it has a place by the
+  /// square of that, so no line from there leads to the crest.
+  [[nodiscard]] Number hold_and_beyond(const Number& place, const Number& phase, Side side) const {
+    using std::atan, std::sqrt;
+    const Number push = push_at_release(place, side);
+    if (!(push > 1) || is_at_crest(push)) return hold(place, phase, side);
+    return hold_to_crest(phase, side) + atan(sqrt((push - 1) * (push + 1)));
   }
 
   /// The phase of the push to a side from zero on its way up, between the crests: -3 pi/2 ... pi/2.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <ranges>
 
 #include "branches/equations/flight.hpp"
 #include "branches/equations/newton.hpp"
@@ -41,6 +43,9 @@ bool push_rises(const FollowedScene& scene, const OrbitImpact& halt) {
   return sign_of(halt.side) * force.amplitude * std::cos(halt.phase + force.lead) > 0;
 }
 
+/// Whether motion jumps where a push comes to the static level.
+bool motion_jumps(const FollowedScene& scene) { return scene.friction.static_level > scene.friction.kinetic; }
+
 /// The velocity falls to 0 in a slip, which goes on at once: beyond, after a stick. If that is a long one, as the
 /// static level is above the kinetic one, the slip goes on here as from a reversal to where it was going.
 HaltChange grazing(const Orbit& orbit, const FollowedScene& scene, const Violation& found, bool jumps) {
@@ -60,11 +65,12 @@ Orbit merged(const Orbit& orbit, std::size_t event = 0) {
   return one;
 }
 
-/// Whether the slip from an event to a stick is about to vanish.
-bool is_about_to_vanish(const FollowedScene& scene, const OrbitImpact& from, const OrbitImpact& to) {
-  constexpr double about_to_vanish = 1e-3;  // rad
-  const double begin = from.phase + (from.event == EventKind::stick ? held(scene, from) : 0.0);
-  return to.event == EventKind::stick && to.phase - begin < about_to_vanish;
+/// The length, rad, of the slip from an event to a stick; infinite if it can't vanish. One that a push at a static
+/// level above the kinetic one begins can't, however short it is.
+double length_of_slip(const FollowedScene& scene, const OrbitImpact& from, const OrbitImpact& to) {
+  if (to.event != EventKind::stick || (halts(from.event) && motion_jumps(scene)))
+    return std::numeric_limits<double>::infinity();
+  return to.phase - from.phase - (from.event == EventKind::stick ? held(scene, from) : 0.0);
 }
 
 /// A reversal comes to be a stick: a short one, or one that begins as the slip after it has become no more, or at once.
@@ -229,22 +235,34 @@ std::optional<ExactGraze> exact_change(const Equations& equations, const Followe
   return exact;
 }
 
+namespace {
+
+/// An orbit without slips that vanish with its first one: those of its repetitions, or of its mirror image.
+Orbit without_short_slips(const FollowedScene& scene, Orbit orbit, double length) {
+  constexpr double about_to_vanish = 1e-3;  // rad
+  for (std::size_t i = orbit.size() - 1; i-- > 1;)
+    if (length_of_slip(scene, orbit.impacts[i], orbit.impacts[i + 1]) < std::max(about_to_vanish, length))
+      orbit = merged(orbit, i);
+  return orbit;
+}
+
+}  // namespace
+
 std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at) {
+  constexpr double about_to_vanish = 0.1;  // rad
   const FollowedScene scene = equations.scene_at(at.at);
   const Orbit orbit = equations.orbit_at(at.at);
-  for (std::size_t i = 0; i < orbit.size() && orbit.size() > 1; ++i) {
-    const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
-    if (!is_about_to_vanish(scene, from, to)) continue;
-    Orbit one = merged(orbit.from_event(i));
-    for (std::size_t k = one.size() - 1; k-- > 1;)  // those of its repetitions, or of its mirror image, at once
-      if (is_about_to_vanish(scene, one.impacts[k], one.impacts[k + 1])) one = merged(one, k);
-    if (from.event == EventKind::impact)
-      return HaltChange{SpecialKind::graze, one, level(Kind::on_stop, 0, from.side), {}, HaltForm::stick};
-    if (from.event == EventKind::stick)
-      return HaltChange{SpecialKind::release_tangency, one, level(Kind::tangency, 0, from.side), {}, HaltForm::stick};
-    return HaltChange{SpecialKind::switching_sliding, one, level(Kind::level, 0, from.side), {}, HaltForm::stick};
-  }
-  return std::nullopt;
+  if (orbit.size() < 2) return std::nullopt;
+  const auto length = [&](std::size_t i) { return length_of_slip(scene, orbit.impact(i), orbit.impact(i + 1)); };
+  const std::size_t first = std::ranges::min(std::views::iota(std::size_t{0}, orbit.size()), {}, length);
+  if (!(length(first) < about_to_vanish)) return std::nullopt;
+  const OrbitImpact& from = orbit.impacts[first];
+  const Orbit one = without_short_slips(scene, merged(orbit.from_event(first)), 2 * std::max(length(first), 0.0));
+  if (from.event == EventKind::impact)
+    return HaltChange{SpecialKind::graze, one, level(Kind::on_stop, 0, from.side), {}, HaltForm::stick};
+  if (from.event == EventKind::stick)
+    return HaltChange{SpecialKind::release_tangency, one, level(Kind::tangency, 0, from.side), {}, HaltForm::stick};
+  return HaltChange{SpecialKind::switching_sliding, one, level(Kind::level, 0, from.side), {}, HaltForm::stick};
 }
 
 namespace {
@@ -254,7 +272,7 @@ std::optional<HaltChange> of_violation(const OrbitEquations& equations, const Cu
   const FollowedScene scene = equations.scene_at(at.at);
   const Orbit orbit = equations.orbit_at(at.at);
   const std::size_t i = found.impact;
-  const bool jumps = scene.friction.static_level > scene.friction.kinetic;
+  const bool jumps = motion_jumps(scene);
   switch (found.kind) {
     case Violation::Kind::passes_through:
       return orbit.size() > 0 ? reaching(orbit, (i + 1) % orbit.size()) : std::nullopt;
@@ -295,7 +313,7 @@ void add_releases_at_crest(const OrbitEquations& equations, const CurvePoint& at
 
 bool jumps_to_stick(const FollowedScene& scene, const Orbit& orbit, std::size_t reversal) {
   const OrbitImpact& halt = orbit.impacts[reversal];
-  return scene.friction.static_level > scene.friction.kinetic && holds(scene, halt, halt.side);
+  return motion_jumps(scene) && holds(scene, halt, halt.side);
 }
 
 bool slips_on_from_stop(const FollowedScene& scene, const Orbit& orbit, std::size_t stick) {

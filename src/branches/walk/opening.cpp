@@ -183,7 +183,8 @@ std::optional<Opened> opened_once(const Equations& equations, const FollowedScen
 
 std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
                              const Opening& opening, double tolerance) {
-  const auto half = half_of_free_slips(scene, orbit);
+  // a stop that the mass comes to strike has its mirror image elsewhere
+  const auto half = opening.kind == Kind::rebound ? std::nullopt : half_of_free_slips(scene, orbit);
   if (!half) return opened_once(equations, scene, orbit, opening, tolerance);
   const auto begun = opened_once(equations, scene, *half, {opening.kind, opening.event % half->size()}, tolerance);
   if (!begun) return std::nullopt;

@@ -26,19 +26,20 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
     look_between(from, step, kind, test, only_down);
   };
   // a branch begins across the parameter if it is born in a flip or a loss of symmetry: that is no fold of it, and as
-  // all its measures turn round there, no maximum
-  const double turns_until = is_first ? step / 8 : 0.0;
+  // all its measures turn round there, no maximum; if a halt of no length begins there, derivatives have no digits
+  const bool begins_to_halt = is_first && std::ranges::any_of(equations.shape().impacts, halts, &OrbitImpact::event);
+  const double turns_until = is_first ? step / 8 : 0.0, begin = begins_to_halt ? 1e-3 * step : 0.0;
   look(
-      SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false, turns_until);
+      SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false,
+      ends.begins_across || begins_to_halt ? turns_until : 0.0);
   // so near to the graze of a soft stop, over the range, nothing tells the turn by a contact that has hardly begun
   constexpr double beside_graze = 1e-12;
-  if (ends.ends_in_graze)
-    std::erase_if(found, [&](const FoundPoint& fold) {
-      return std::abs(fold.point.at.back() - there->at.back()) <= beside_graze;
-    });
-  // if a halt of no length begins there, derivatives have no digits
-  const bool begins_to_halt = is_first && std::ranges::any_of(equations.shape().impacts, halts, &OrbitImpact::event);
-  const double begin = begins_to_halt ? 1e-3 * step : 0.0;
+  std::erase_if(found, [&](const FoundPoint& fold) {
+    const auto is_beside = [&](const CurvePoint& graze) {
+      return std::abs(fold.point.at.back() - graze.at.back()) <= beside_graze;
+    };
+    return (is_first && is_beside(walk.here())) || (ends.ends_in_graze && is_beside(*there));
+  });
   const bool has_impacts = equations.shape().size() > 0;
   const SpecialKind loses = equations.shape().mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
   if (has_impacts && has_loose_mass(equations.scene_at(there->at).loose)) {

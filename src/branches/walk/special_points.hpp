@@ -17,6 +17,7 @@ struct FoundPoint {
 /// How a step lies on its branch.
 struct StepEnds {
   bool begins_in_special = false;  ///< it is the first one from a special point
+  bool begins_across = false;      ///< in which the branch runs across the parameter, or turns by rounding
   bool ends_in_graze = false;
 };
 
