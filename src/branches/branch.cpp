@@ -157,21 +157,21 @@ class Follower {
     record_.fail(record_.point(equations, walk.here()), no_step);
   }
 
-  /// Special points within a step, which may end in a graze. Returns true if the branch is born in one of them, which
-  /// ends it.
+  /// Special points within a step, which may end in a graze. Returns whether the branch is born in one, and ends.
   bool special_between(const OrbitEquations& equations, const Walk& walk, double step,
                        const std::optional<std::size_t>& from, bool grazes = false) {
     std::vector<FoundPoint> found = special_points_within(
         equations, walk, step, {from.has_value(), from && !turns_at_.empty(), grazes}, problem_.observe);
     const auto met = from ? std::nullopt : halves_met(equations, walk, step, symmetric_);
     const bool born = met && note_birth(equations, *met, step);
-    // in its birth a branch turns round, and so do all its measures: that is no fold of it, and no maximum
+    if (born) turns_at_.push_back(met->point.at.back());  // and so do all measures: that is no fold, and no maximum
     std::erase_if(found, [&](const FoundPoint& f) {
-      if (slip_vanishes_beside(any_equations(), equations, f.point, settings_.tolerance)) return !birth_at(f.kind);
-      if (f.kind != SpecialKind::fold) return false;
+      if (birth_at(f.kind) || f.kind == SpecialKind::neimark_sacker) return false;
       const auto is_near = [&](double turn) { return std::abs(f.point.at.back() - turn) <= beside_singular; };
-      return born || std::ranges::any_of(turns_at_, is_near) ||
-             (!from && is_turn_of_birth(equations, walk, 2 * step, symmetric_));
+      if (std::ranges::any_of(turns_at_, is_near)) return true;
+      if (slip_vanishes_beside(any_equations(), equations, f.point, settings_.tolerance)) return true;
+      if (f.kind != SpecialKind::fold) return false;
+      return born || (!from && is_turn_of_birth(equations, walk, 2 * step, symmetric_));
     });
     const double end = born ? met->point.arclength - 1e-2 * step : walk.here().arclength + step;
     for (const FoundPoint& f : found)
@@ -334,7 +334,7 @@ class Follower {
   bool symmetric_;  ///< all scenes of the branch
   double speed_unit_ = 0.0;
   std::int64_t generation_ = 0;
-  std::vector<double> turns_at_{};  ///< parameters at which the branch begins or ends, and turns: no fold is told there
+  std::vector<double> turns_at_{};  ///< parameters at which the branch begins or ends, and turns
   std::deque<Waiting> waiting_;
   Record record_;
 };

@@ -85,6 +85,28 @@ stop_stiffness_lower = 203.2681675527201
 stop_damping_lower = 0.003381159141370056
 """
 
+# asymmetric motion is born, and runs so much across the parameter that this changes by 1e-12 in the first steps
+ACROSS = """[machine]
+mass = 0.37
+x0 = 2.147137404309376
+v0 = 0.5802992555816624
+stop_lower = -1.5657029915474288
+stop_upper = 2.1576509940931703
+R = 0.8150280890540336
+friction = 0.18311884278818127
+damping = 0.012118441288088712
+force = 0.37
+stiffness = 0.37
+load = 0.1095103804709622
+frequency = 0.12979368846023617
+[observe]
+harmonics = 1
+[branch]
+along = "frequency"
+range = [0.11032463519120074, 0.1492627417292716]
+switch = 1
+"""
+
 
 class BranchSet(BranchRuns):
     def found(self, output, *words):
@@ -143,6 +165,21 @@ class BranchSet(BranchRuns):
     def test_no_fold_is_told_where_a_touch_begins_across_the_parameter(self):
         expected = [("graze", 0.4811002758114), ("graze", 0.4811167203046)]
         self.check(TURNS, [0.365820977139625, 0.494934263188904], expected)
+
+    def test_no_maximum_is_told_at_a_birth_whatever_the_step_is(self):
+        self.write("a.toml", ACROSS)
+        for step in ("0.02", "0.01", "0.005"):
+            self.assertEqual(
+                self.clatter(
+                    "branch", "a.toml", "-o", "b.h5", "-q", "--force", "--set", f"branch.largest_step={step}"
+                ).returncode,
+                0,
+            )
+            with h5py.File(self.directory / "b.h5") as file:
+                kinds, at = file["special_kind"][()], file["special_frequency"][()]
+            birth = at[kinds == b"symmetry breaking"][0]
+            self.assertAlmostEqual(birth, 0.118319460630663, 12)
+            self.assertEqual(list(kinds[np.abs(at - birth) < 1e-9]), [b"symmetry breaking"], step)
 
 
 if __name__ == "__main__":
