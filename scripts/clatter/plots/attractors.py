@@ -3,13 +3,12 @@
 import numpy as np
 from matplotlib import colors
 
-from .data import CREEPING, ESCAPED, FIRST_FAILURE, has_failed
+from .data import CREEPING, ESCAPED, FIRST_FAILURE, STARTS, has_failed
 from .maps import OLIVE, class_map, edges_between, name_colours, name_panel
 from .scales import shown_values, tidy_ticks
 from .names import NO_CONTACT, STUCK, has_impacts, label, number, plain, short_word, symbol
 from .style import COLOURS, GREEN, SKY, colour_of, legend_above
 
-STARTS = ("x0", "v0", "phase", "start_period", "loose_x0", "loose_v0")
 OTHERS = "#bfbfbf"
 MOST = 16  # motions with an entry of their own in a legend
 LEAST = 0.005  # share of the starts at its largest below which a motion is one of the others

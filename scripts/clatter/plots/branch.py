@@ -5,13 +5,14 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib import colors
+from matplotlib.patheffects import withStroke
 
 from .attractors import ZONES, has_shares, runs
-from .branch_names import REST, colours_and_names
-from .choice import ChoiceProblem
+from .branch_names import REST, colours_and_names, prefixed
+from .choice import ChoiceProblem, differences
 from .maps import Grid, edges_between, kind_map, regime_map
 from .names import label, plain
-from .style import STOP, caption_below, legend_above, new_figure
+from .style import STOP, caption_below, colour_of, legend_above, new_figure
 
 PANELS = ("v_max", "impact_speed")  # unless --only names others
 OFFERED = ("x", "v", "x_min", "x_max", "v_min", "v_max", "impact_speed", "impact_power")
@@ -52,13 +53,14 @@ def branch_figure(outputs, options):
     parameter = parameters.pop()
     names = chosen(options.only)
     notes = ["solid: stable", "dashed: unstable"]
-    colours, legend = colours_and_names(branches, parameter, names)
+    own = dict(zip(map(id, outputs), differences(outputs)))
+    colours, legend = colours_and_names(branches, parameter, names, [own[id(output)] for output in branches])
     figure = new_figure(1.2 + 2.6 * len(names))
     panels = figure.subplots(len(names), sharex=True, squeeze=False)[:, 0]
     for axes, name in zip(panels, names):
         for output in outputs:
             if not output.is_branch:
-                notes += sweep_behind(axes, output, parameter, branches[0][name])
+                notes += sweep_behind(axes, output, parameter, branches[0][name], own[id(output)])
         if options.backbone and name == "impact_speed":
             notes += draw_backbones(axes, branches, parameter)
         for colour, title in legend:
@@ -91,11 +93,14 @@ def curve_figure(outputs, options):
     figure = new_figure(4.6, 6.4)
     axes = figure.subplots()
     notes = []
-    for output in outputs:
-        if not output.is_branch:
-            notes += map_behind(figure, axes, output, plane, options)
-    for output in curves:
-        draw_curves(axes, output, plane)
+    own = differences(outputs)
+    looks = {difference: colour_of(place) for place, difference in enumerate(dict.fromkeys(own))}
+    looks = looks if len({own[outputs.index(output)] for output in curves}) > 1 else dict.fromkeys(own, STOP)
+    for output, difference in zip(outputs, own):
+        if output.is_branch:
+            draw_curves(axes, output, plane, difference, looks[difference])
+        else:
+            notes += map_behind(figure, axes, output, plane, options) + [f"map: {difference}"] * bool(difference)
     for output in curves:
         draw_specials(axes, output, *plane, skip=output.config["branch"]["curve"])
     if len(curves) == len(outputs):
@@ -132,12 +137,16 @@ def map_behind(figure, axes, output, plane, options):
     return notes or []
 
 
-def draw_curves(axes, output, plane):
+def draw_curves(axes, output, plane, difference, colour):
+    """The curves of a file, named by their kind and how its scene differs."""
     number, (kind, dashes) = output.values("branch"), CURVES[output.config["branch"]["curve"]]
+    title, look = prefixed(difference, kind), {"color": colour}
+    if colour != STOP:  # one of several, over colours of a map
+        look["path_effects"] = [withStroke(linewidth=2.6, foreground="white")]
     x, y = (output.values(name) for name in plane)
     for curve in np.unique(number):
         own = number == curve
-        axes.plot(x[own], y[own], ls=dashes, lw=1.1, color=STOP, label=kind, zorder=3, gid=f"{kind} {curve}")
+        axes.plot(x[own], y[own], ls=dashes, lw=1.1, label=title, zorder=3, gid=f"{kind} {curve}", **look)
 
 
 def parameter_of(output):
@@ -211,14 +220,15 @@ def draw_specials(axes, output, parameter, name, skip=""):
         axes.plot(x[own], y[own], marker, label=plain(kind).replace("_", " "), **look)
 
 
-def sweep_behind(axes, output, parameter, quantity):
-    """Behind branches, the zones of a sweep with shares of its motions, or else its results of that quantity."""
+def sweep_behind(axes, output, parameter, quantity, difference):
+    """Behind branches, the zones of a sweep with shares of its motions, or else its results of that quantity, named by
+    how its scene differs."""
     if has_shares(output) and output["motion_share"].dims[0] == parameter:
-        return zones_behind(axes, output, parameter)
-    return points_behind(axes, output, parameter, quantity)
+        return zones_behind(axes, output, parameter, difference)
+    return points_behind(axes, output, parameter, quantity, prefixed(difference, "sweep"))
 
 
-def zones_behind(axes, output, parameter):
+def zones_behind(axes, output, parameter, difference):
     """Where all starts end in one motion, and where in several, as the colour of the ground."""
     places = output.values(parameter).astype(float)
     order = np.argsort(places, kind="stable")
@@ -226,12 +236,12 @@ def zones_behind(axes, output, parameter):
     for name, cells in (("soft", ~several), ("hard", several)):
         colour = colors.to_rgba(dict(ZONES)[name], 0.13)
         for part, (begin, end) in enumerate(runs(cells)):
-            title = f"{name} zone" if part == 0 else None
+            title = prefixed(difference, f"{name} zone") if part == 0 else None
             axes.axvspan(edges[begin], edges[end], color=colour, lw=0, zorder=0, label=title, gid=f"{name} zone")
     return []
 
 
-def points_behind(axes, output, parameter, quantity):
+def points_behind(axes, output, parameter, quantity, title):
     """The results of a sweep over the parameter, of two stops the larger; returns the note that it has none."""
     if output.axes != (parameter,):
         raise ChoiceProblem(
@@ -245,5 +255,5 @@ def points_behind(axes, output, parameter, quantity):
     values = output.values(name)
     if values.ndim > 1:  # of each stop
         values = np.fmax.reduce(values, axis=-1)
-    axes.plot(output.values(parameter), values, ".", ms=6, mew=0, color=BEHIND, label="sweep", zorder=1, gid="sweep")
+    axes.plot(output.values(parameter), values, ".", ms=6, mew=0, color=BEHIND, label=title, zorder=1, gid="sweep")
     return []

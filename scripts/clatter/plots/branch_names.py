@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .choice import differences
+from .choice import told_apart
 from .names import NO_CONTACT, plain, short_word
 from .style import colour_of
 
@@ -10,11 +10,15 @@ NAMED = 10  # branches, or files if there are several
 REST = "#a0a0a0"  # colour of all others
 
 
-def colours_and_names(branches, parameter, names):
+def colours_and_names(branches, parameter, names, own):
     """The colour of each branch that is named, by the place of its file and its number, and the entries of the legend:
-    (colour, name). `names` are those of the quantities that the panels show."""
+    (colour, name). `names` are those of the quantities that the panels show, `own` is how the scene of each file
+    differs."""
     units = [[(place, number) for number in numbers_in(output)] for place, output in enumerate(branches)]
-    titles = titles_of_files(branches) if len(units) > 1 else [title_of(branches[0], number) for _, number in units[0]]
+    if len(units) > 1:
+        titles = titles_of_files(branches, own)
+    else:
+        titles = [prefixed(own[0], title_of(branches[0], number)) for _, number in units[0]]
     units = units if len(units) > 1 else [[branch] for branch in units[0]]
     extents = {key: extent(branches, key) for key in (parameter, *names)}
 
@@ -45,15 +49,20 @@ def title_of(output, number):
     return f"{word_of(output, number)}, branch {number}"
 
 
-def titles_of_files(branches):
-    """The regime and word that each file begins with, and how it differs from the others if these are the same."""
+def titles_of_files(branches, own):
+    """How the scene of each file differs, and the regime and word that it begins with; with the name of the file if
+    these are the same."""
     titles = []
-    for output in branches:
-        regime = output.values("regime")[middle(output, numbers_in(output)[0])]
-        titles.append(f"{plain(regime)}, {word_of(output, numbers_in(output)[0])}")
-    if len(set(titles)) < len(titles):
-        titles = [f"{name}: {title}" for name, title in zip(differences(branches), titles)]
-    return titles
+    for output, difference in zip(branches, own):
+        number = numbers_in(output)[0]
+        regime = output.values("regime")[middle(output, number)]
+        titles.append(prefixed(difference, f"{plain(regime)}, {word_of(output, number)}"))
+    return told_apart(titles, branches)
+
+
+def prefixed(difference, title):
+    """The title of a curve behind the keys that it doesn't share with all others."""
+    return f"{difference}: {title}" if difference else title
 
 
 def word_of(output, number):

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from .._program import WRONG_USE, ClatterError
-from .data import PHASE, Output
-from .names import equation, plain
+from .data import PHASE, STARTS, Output
+from .names import equation, plain, symbol
 from .written import misfit
 
 FEW = 6  # values of an axis that make a family of curves rather than a map
@@ -111,7 +111,11 @@ def parts(output, families):
     for indexes in itertools.product(*(range(len(output.values(axis))) for axis in families)):
         part, names = output, []
         for axis, index in zip(families, indexes):
-            names.append(equation(output, axis, output.values(axis)[index]))
+            keys = [
+                axis,
+                *(key for key in output.sweep if key != axis and key in output and output[key].dims == (axis,)),
+            ]
+            names += [equation(output, key, output.values(key)[index]) for key in keys]
             part = part.at(axis, index)
         yield ", ".join(names), part
 
@@ -155,20 +159,54 @@ def results_named(members, only):
 
 
 def together(outputs):
-    """One member for each file, if all hold curves over the same axis; else None."""
-    if len({output.axes for output in outputs}) != 1 or len(outputs) > MOST:
+    """One member for each file, if all hold curves over the same axis in the same units; else None."""
+    if len({(output.axes, output.is_si) for output in outputs}) != 1 or len(outputs) > MOST:
         return None
-    return [Member(name, output) for name, output in zip(differences(outputs), outputs)]
+    names = differences(outputs)
+    return [Member(name, output) for name, output in zip(told_apart(names, outputs), outputs)]
+
+
+def told_apart(names, outputs):
+    """The names, those that several outputs share with the names of their files."""
+    if len(set(names)) == len(names):
+        return names
+    stems = [plain(Path(output.path).stem) for output in outputs]
+    return [f"{stem}: {name}" if name else stem for name, stem in zip(names, stems)]
 
 
 def differences(outputs):
-    """A name for each output: the constants of the scene in which they differ, else the name of its file."""
-    keys = [key for key in outputs[0].scene if len({output.scene.get(key) for output in outputs}) > 1]
-    names = [
-        ", ".join(equation(output, key, output.scene[key]) for key in keys if is_number(output.scene.get(key)))
-        for output in outputs
-    ]
-    return names if len(set(names)) == len(names) else [plain(Path(output.path).stem) for output in outputs]
+    """The keys of its scene in which each output isn't as all others are, e.g. R = 0.6; empty texts if none differs."""
+    keys = differing_keys(outputs)
+    return [", ".join(filter(None, (own_value(output, key) for key in keys))) for output in outputs]
+
+
+def differing_keys(outputs):
+    """The keys of the scene that differ between outputs. Branches only begin at a start, so it doesn't tell them
+    apart."""
+    keys = dict.fromkeys(key for output in outputs for key in (*output.scene, *output.sweep))
+    return [key for key in keys if len({condition(output, key) for output in outputs if matters(output, key)}) > 1]
+
+
+def matters(output, key):
+    return key != "direction" and not (output.is_branch and key in STARTS)
+
+
+def condition(output, key):
+    """What tells outputs apart: a value with its unit, or that the output has values of the key along an axis."""
+    return "varies" if varies(output, key) else (output.scene.get(key), output.units.get(key))
+
+
+def varies(output, key):
+    """Whether a key of the scene has values along an axis of the output, its own or that of another key."""
+    return key in output.sweep and key in output
+
+
+def own_value(output, key):
+    """The value of a key as text; empty if the output has none."""
+    if varies(output, key):
+        return f"{symbol(output, key)} along {symbol(output, output[key].dims[0])}"
+    value = output.scene.get(key)
+    return equation(output, key, value) if is_number(value) and matters(output, key) else ""
 
 
 def is_number(value):

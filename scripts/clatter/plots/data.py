@@ -21,6 +21,7 @@ SOFT_STOPS = ("stop_stiffness_lower", "stop_stiffness_upper")
 SI_WORDS = {"tau": "t", "xs": "gap"}  # of long names, in [machine]
 SHAKEN = ("stop_amplitude", "base_amplitude")
 LOGGED = ("impact",)  # dimensions of the log
+STARTS = ("x0", "v0", "phase", "start_period", "loose_x0", "loose_v0")  # keys that say where motion begins
 PHASE = "impact_phase"  # of the log, the result that has a diagram of its own
 
 

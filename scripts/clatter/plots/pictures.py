@@ -7,7 +7,7 @@ from . import legends, style
 from .accuracy import accuracy_figure
 from .bifurcation import keep_words_with_room
 from .branch import branch_figure, curve_figure, plane_of
-from .choice import members_of, results_named, together
+from .choice import ChoiceProblem, members_of, results_named, together
 from .data import Output
 from .figures import paper_figure
 from .generic import generic_figure
@@ -47,8 +47,12 @@ def branches_together(options):
     """All branches, or curves, of the files in one picture, with the results of sweeps behind them."""
     outputs = [Output(path) for path in options.files]
     branches = [output for output in outputs if output.is_branch]
+    if len({output.is_si for output in outputs}) > 1:
+        raise ChoiceProblem(
+            "[scene] and [machine] in one picture: their units differ; draw each in a picture of its own"
+        )
     figure = curve_figure(outputs, options) if any(map(plane_of, branches)) else branch_figure(outputs, options)
-    style.heading(figure, branches[0], options.title, branches)
+    style.heading(figure, branches[0], options.title, outputs)
     return finished(figure, options)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from .choice import ChoiceProblem
+from .choice import ChoiceProblem, condition, differing_keys
 from .names import equation, label, plain, scale_in, symbol, typeset_unit
 
 DPI = 200  # of PNG; texts are measured for it, once
@@ -91,13 +91,19 @@ def typeset(output, title):
 def heading(figure, output, title=None, others=()):
     """Title above the picture, and below it the constants that it does not already name, common to all outputs."""
     name = f"Fig. {output.figure}.  " if output.figure else "Accuracy and time.  " if output.is_accuracy else ""
-    titles = {other.title for other in others}
-    own = output.title if len(titles) < 2 else ""
+    titles = {other.title for other in others if other.is_branch == output.is_branch}
+    is_true = not any(names_key(output.title, key) for key in differing_keys(others))
+    own = output.title if len(titles) < 2 and is_true else ""
     shown = constants(output, own, others)
     lines = constant_lines(figure, shown)
     to_text = functools.partial(typeset, output) if title is None else plain
     first = title_lines(figure, f"{name}{own}" if title is None else title, to_text)
     figure.suptitle("\n".join([*first, *lines]).strip(), fontsize=10.5, linespacing=1.5)
+
+
+def names_key(title, key):
+    """Whether a title tells the value of a key."""
+    return bool(re.search(rf"\b{key} = ", title))
 
 
 def constant_lines(figure, entries):
@@ -180,9 +186,9 @@ def constants(output, title, others=()):
         **dict.fromkeys(nothing, 0.0),
         "stiffness": 0.0 if output.is_si else 1.0,
     }  # nothing to say at these values
-    named = {key for key in output.constants if re.search(rf"\b{key} = ", title)}
+    named = {key for key in output.constants if names_key(title, key)}
     keys = [key for key in output.constants if key in output.scene and key not in named and not output.swept(key)]
-    keys = [key for key in keys if all(other.scene.get(key) == output.scene[key] for other in others)]
+    keys = [key for key in keys if len({condition(other, key) for other in (output, *others)}) == 1]
     forces = ("force" if output.is_si else "f", "stop_amplitude", "base_amplitude")
     if not any(float(output.scene.get(key, 0.0)) or output.swept(key) for key in forces):
         keys = [key for key in keys if key not in ("nu", "frequency", "phase")]  # no force, no frequency
