@@ -52,8 +52,9 @@ class Curve:
         return self.wrong | self.failed
 
 
-def accuracy_figure(output):
-    """The figure, with its heading: a panel for each kind of error in the file."""
+def accuracy_figure(output, title=None, size=None):
+    """The figure, with its heading: a panel for each kind of error in the file. The size is in inches, if it is
+    given."""
     exact = curve(output, "harmonics_exact", ("error_harmonics",), None)
     lanes = curve(output, "exact", ("error_extrema",), "ns_per_period", "exact_lanes", in_lanes=True)
     panels = [
@@ -79,7 +80,9 @@ def accuracy_figure(output):
     panels = [(draw, [part for part in found if len(part)]) for draw, found in panels]
     panels = panels[:1] + [(draw, found) for draw, found in panels[1:] if found]
     figure, places = panel_places(len(panels))
-    heading(figure, output)  # takes room, and the labels come last
+    if size:
+        figure.set_size_inches(size)
+    heading(figure, output, title)  # takes room, and the labels come last
     figure.supxlabel(note(output, [exact, lanes, *(part for _, found in panels for part in found)]), fontsize=9.5)
     place_labels(figure, [labels for axes, (draw, found) in zip(places, panels) for labels in draw(axes, found)])
     return figure

@@ -1,6 +1,7 @@
 """Pictures of outputs of clatter, by what they hold."""
 
 import io
+import warnings
 from pathlib import Path
 
 from . import legends, style
@@ -12,6 +13,7 @@ from .data import Output
 from .figures import paper_figure
 from .generic import generic_figure
 from .log import names_left_out, note_left_out
+from .room import require_room
 from .scales import tidy_ticks
 
 DATELESS = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}  # the same bytes on every run
@@ -51,9 +53,14 @@ def branches_together(options):
         raise ChoiceProblem(
             "[scene] and [machine] in one picture: their units differ; draw each in a picture of its own"
         )
-    figure = curve_figure(outputs, options) if any(map(plane_of, branches)) else branch_figure(outputs, options)
-    style.heading(figure, branches[0], options.title, outputs)
-    return finished(figure, options)
+    shape = curve_figure if any(map(plane_of, branches)) else branch_figure
+
+    def draw():
+        figure = shape(outputs, options)
+        style.heading(figure, branches[0], options.title, outputs)
+        return figure
+
+    return finished(draw, options)
 
 
 def shared_members(options):
@@ -72,23 +79,46 @@ def shared_members(options):
 
 def single_figure(output, options):
     if output.is_accuracy:
-        return accuracy_figure(output)
+        return with_room(lambda size: accuracy_figure(output, options.title, size), options)
     chosen = options.only or options.along or options.over or options.at
-    draw = None if chosen else paper_figure(output)
-    if draw is None:
+    paper = None if chosen else paper_figure(output)
+    if paper is None:
         return figure_of(members_of(output, options.along, options.over, options.at), options)
-    figure = draw(output)
-    style.heading(figure, output, options.title)
-    return finished(figure, options)
+
+    def draw():
+        figure = paper(output)
+        style.heading(figure, output, options.title)
+        return figure
+
+    return finished(draw, options)
 
 
 def figure_of(members, options):
-    figure = generic_figure(members, results_named(members, options.only), options)
-    style.heading(figure, members[0].output, options.title, [member.output for member in members])
-    return finished(figure, options)
+    def draw():
+        figure = generic_figure(members, results_named(members, options.only), options)
+        style.heading(figure, members[0].output, options.title, [member.output for member in members])
+        return figure
+
+    return finished(draw, options)
 
 
-def finished(figure, options):
+def finished(draw, options):
+    """The figure that is drawn, with what the options say of every panel."""
+    return with_room(lambda size: laid_out(draw(), options, size), options)
+
+
+def with_room(draw, options):
+    """The figure of the size that is chosen, if that has room for it."""
+    if not options.size:
+        return draw(None)
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="constrained_layout not applied")  # it is refused then
+        figure = draw(options.size)
+        require_room(figure, draw, options.size)
+    return figure
+
+
+def laid_out(figure, options, size):
     """Sets what the options say of every panel, and the layout once for all formats."""
     left_out = []
     for axes in figure.axes:
@@ -97,9 +127,9 @@ def finished(figure, options):
             style.set_view(axes, options)
             tidy_ticks(axes)
     note_left_out(figure, left_out)
-    if options.size:
-        figure.set_size_inches(options.size)
-    legends.lay_out(figure, is_fixed=bool(options.size))
+    if size:
+        figure.set_size_inches(size)
+    legends.lay_out(figure, is_fixed=bool(size))
     keep_words_with_room(figure)
     return figure
 
