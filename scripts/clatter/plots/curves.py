@@ -6,6 +6,7 @@ from itertools import product
 import numpy as np
 from matplotlib import ticker
 
+from .changes import changes_of_motion
 from .data import ESCAPED, has_failed, lacks_period
 from .scales import COUNTS, is_integer, shown_values
 from .names import amount, in_frame, label, plain, result_in_words, symbol, with_unit
@@ -28,9 +29,10 @@ SHARED = {  # the label of results in one panel; alone each has its own
 
 def draw_branch(axes, output, name, values, color, title, loose_color=None, is_count=False, **style):
     """One result along the only axis: a line through the points that repeat, hollow markers for those that don't. The
-    line of a count ends where it changes."""
+    line ends where the motion becomes another one, and that of a count where it changes."""
     along, loose = output.values(name), lacks_period(output.values("status"))
-    along, values, loose = split_at_jumps(along, values, loose, is_count)
+    ends = changes_of_motion(output) | jumps_of(values, is_count)
+    along, values, loose = split_at(ends, along, values, loose)
     steady = np.where(loose, np.nan, values)
     marker = "." if len(along) < DENSE else None
     style = {"lw": 1.2, "marker": marker, **style}
@@ -61,20 +63,24 @@ def draw_branch(axes, output, name, values, color, title, loose_color=None, is_c
     )
 
 
-def split_at_jumps(along, values, loose, is_count=False):
-    """Puts a gap where the result jumps from one branch of the motion to another, or a count changes: no motion lies
-    between."""
+def jumps_of(values, is_count=False):
+    """Whether the next value doesn't continue what is before and after it, as far as many values tell; of a count,
+    whether it changes."""
     step = np.diff(values)
     if is_count:
-        jumps = np.flatnonzero(np.isfinite(step) & (step != 0)) + 1
-        return np.insert(along, jumps, along[jumps]), np.insert(values, jumps, np.nan), np.insert(loose, jumps, False)
+        return np.isfinite(step) & (step != 0)
     if len(values) < DENSE or not np.isfinite(step).any():
-        return along, values, loose
+        return np.zeros(len(step), bool)
     after, before = np.append(step[1:], 0.0), np.insert(step[:-1], 0, 0.0)
     around = np.fmax(*(np.where(np.sign(beside) == np.sign(step), np.abs(beside), 0.0) for beside in (before, after)))
     extent = np.nanmax(values) - np.nanmin(values)
-    jumps = np.flatnonzero((np.abs(step) > 0.01 * extent) & (np.abs(step) > 4 * around)) + 1
-    return np.insert(along, jumps, along[jumps]), np.insert(values, jumps, np.nan), np.insert(loose, jumps, False)
+    return (np.abs(step) > 0.01 * extent) & (np.abs(step) > 4 * around)
+
+
+def split_at(ends, along, values, loose):
+    """Puts a gap between a point and the next where a line ends: no motion lies between."""
+    ends = np.flatnonzero(ends) + 1
+    return np.insert(along, ends, along[ends]), np.insert(values, ends, np.nan), np.insert(loose, ends, False)
 
 
 def lonely(values):
