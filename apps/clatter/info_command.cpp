@@ -11,6 +11,7 @@
 #include "file_points.hpp"
 #include "json_output.hpp"
 #include "outputs/output_summary.hpp"
+#include "per_period.hpp"
 #include "quantiles.hpp"
 #include "result_catalogue.hpp"
 #include "result_help.hpp"
@@ -96,8 +97,9 @@ void print_config(const std::string& path, const results::FileSummary& summary) 
 void print_extremes(const results::FileSummary& summary, const std::string& path, const std::string& name,
                     const Arguments& arguments) try {
   const bool as_json = arguments.has("json");
-  const Extremes extremes(summary, path, name, arguments.has("max"), arguments.has("periodic"));
-  const std::vector<Extreme> points = extremes.of(results::read_variables(path, extremes.variables()));
+  const Compared compared(summary, path);
+  const Extremes extremes(compared.summary(), path, name, arguments.has("max"), arguments.has("periodic"));
+  const std::vector<Extreme> points = extremes.of(compared.read(extremes.variables()));
   std::cout << (as_json ? extremes_json(extremes, points) : extremes_text(extremes, points));
 } catch (const ChoiceError& error) {
   throw UsageError(error.what());

@@ -86,7 +86,9 @@ std::string summary_json(const results::FileSummary& summary, const std::vector<
   for (const Quantiles& of_result : quantiles) {
     Json values = Json::object();
     for (std::size_t i = 0; i < told_shares.size(); ++i) values[formatted("%g", told_shares[i])] = of_result.values[i];
-    json["quantiles"][of_result.result] = {{"points", of_result.points}, {"units", of_result.units}, {"at", values}};
+    Json& own = json["quantiles"][of_result.result];
+    own = {{"points", of_result.points}, {"units", of_result.units}, {"at", values}};
+    if (!of_result.per.empty()) own["per"] = "forcing period";
   }
   return text_of(json, in_lines);
 }

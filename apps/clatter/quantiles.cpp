@@ -10,6 +10,7 @@
 #include "config/suggestion.hpp"
 #include "file_points.hpp"
 #include "format.hpp"
+#include "per_period.hpp"
 #include "steady/status.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
@@ -30,8 +31,8 @@ bool is_result(const Entry& entry, const results::NamedLength& points, const std
          std::ranges::find(axes, entry.name) == axes.end();
 }
 
-Quantiles of_values(std::string result, std::string units, std::vector<double> values) {
-  Quantiles quantiles{std::move(result), std::move(units), values.size()};
+Quantiles of_values(std::string result, std::string units, std::string per, std::vector<double> values) {
+  Quantiles quantiles{std::move(result), std::move(units), std::move(per), values.size()};
   std::ranges::sort(values);
   for (std::size_t i = 0; i < told_shares.size(); ++i) {
     if (values.empty()) {
@@ -84,7 +85,8 @@ std::vector<Quantiles> quantiles_of(const results::FileSummary& summary, const s
     }
   std::ranges::sort(names);
   names.erase(std::unique(names.begin(), names.end()), names.end());
-  const results::Dataset dataset = results::read_variables(path, names);
+  const Compared compared(summary, path);
+  const results::Dataset dataset = compared.read(names);
   const auto* const status = results::values_of<std::uint8_t>(dataset, "status");
   std::vector<Quantiles> all;
   for (const Entry* const entry : found) {
@@ -97,7 +99,8 @@ std::vector<Quantiles> quantiles_of(const results::FileSummary& summary, const s
       const std::string name = entry->dimensions.size() == 1
                                    ? entry->name
                                    : entry->name + '[' + component_name(dataset, entry->dimensions[1].name, part) + ']';
-      all.push_back(of_values(name, entry->units, known_values(*values, part, width, *status)));
+      all.push_back(
+          of_values(name, entry->units, compared.per(entry->name), known_values(*values, part, width, *status)));
     }
   }
   return all;
@@ -118,15 +121,15 @@ std::string quantiles_text(const results::FileSummary& summary, const std::vecto
   std::string text = "\nQuantiles over " + over + '\n' + std::string(name_width + 2, ' ');
   for (const double share : told_shares) text += aligned(formatted("%.0f %%", 100 * share), number_width);
   text += '\n';
-  for (const auto& [result, units, points, values] : quantiles) {
+  for (const auto& [result, units, per, points, values] : quantiles) {
     if (points == 0) continue;
     const Amounts amounts(units, values);
     std::string name = "  " + storage::printable(result);
     name.resize(std::max(name.size(), name_width + 2), ' ');
     text += name;
     for (const double value : values) text += aligned(amounts.number("%.6g", value), number_width);
-    text +=
-        "  " + amounts.unit() + (amounts.unit().empty() ? "" : ", ") + counted(static_cast<double>(points), "point");
+    const std::string unit = amounts.unit() + (amounts.unit().empty() || per.empty() ? "" : " ") + per;
+    text += "  " + unit + (unit.empty() ? "" : ", ") + counted(static_cast<double>(points), "point");
     text += '\n';
   }
   return text;

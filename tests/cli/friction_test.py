@@ -201,7 +201,7 @@ class Pictures(Sliding):
         self.assertIn("friction = 6\N{NO-BREAK SPACE}N", figure._suptitle.get_text())
         entries = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
         self.assertEqual(entries[:2], ["work", "friction"])
-        self.assertEqual(figure.axes[0].get_ylabel(), "energy in the observed time (J)")
+        self.assertEqual(figure.axes[0].get_ylabel(), "energy per forcing period (J)")
 
 
 if __name__ == "__main__":

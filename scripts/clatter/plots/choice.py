@@ -10,6 +10,7 @@ import numpy as np
 from .._program import WRONG_USE, ClatterError
 from .data import PHASE, STARTS, Output
 from .names import equation, plain, symbol
+from .per_period import TOTALS, compared
 from .written import misfit
 
 FEW = 6  # values of an axis that make a family of curves rather than a map
@@ -32,8 +33,11 @@ class Member:
 
 
 def members_of(output, along="", over="", at=()):
-    """The outputs that share the picture of one file, at most one of them if they have two axes."""
-    members = chosen_members(output, along, over, at)
+    """The outputs that share the picture of one file, at most one of them if they have two axes. Where points are
+    compared, totals are per forcing period."""
+    members = chosen_members(compared(output), along, over, at)
+    if not members[0].output.axes:
+        members = chosen_members(output, along, over, at)
     return [Member(member.title, member.output.without_infinite_values()) for member in members]
 
 
@@ -160,7 +164,9 @@ def results_named(members, only):
 
 def together(outputs):
     """One member for each file, if all hold curves over the same axis in the same units; else None."""
-    if len({(output.axes, output.is_si) for output in outputs}) != 1 or len(outputs) > MOST:
+    units = {(output.axes, output.is_si) for output in outputs}
+    totals = [{output[name].label for output in outputs if name in output} for name in TOTALS]
+    if len(units) != 1 or len(outputs) > MOST or any(len(labels) > 1 for labels in totals):
         return None
     names = differences(outputs)
     return [Member(name, output) for name, output in zip(told_apart(names, outputs), outputs)]

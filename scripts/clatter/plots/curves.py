@@ -9,6 +9,7 @@ from matplotlib import ticker
 from .changes import changes_of_motion
 from .data import ESCAPED, has_failed, lacks_period
 from .scales import COUNTS, is_integer, shown_values
+from .per_period import IN_TIME, PER_PERIOD
 from .names import amount, in_frame, label, plain, result_in_words, symbol, with_unit
 from .style import BLUE, STOP, colour_of, draw_walls, legend_above, set_axis
 
@@ -23,7 +24,7 @@ SHARED = {  # the label of results in one panel; alone each has its own
     frozenset({"y_min", "y_max"}): "displacement $y$ of the loose mass",
     frozenset({"z_min", "z_max"}): "place in the housing $z$",
     frozenset({"v_before", "v_after"}): "velocity at impact $x$\N{PRIME}",
-    frozenset({"work_in", "loss_damping", "loss_friction"}): "energy in the observed time",
+    frozenset({"work_in", "loss_damping", "loss_friction"}): f"energy {IN_TIME}",
 }
 
 
@@ -201,6 +202,7 @@ def label_of(output, group):
         words = (
             SHARED[shared].replace("$x$", "$z$") if first == "v_before" and output.has_loose_mass else SHARED[shared]
         )
+        words = words.replace(IN_TIME, PER_PERIOD) if PER_PERIOD in output[first].long_name else words
         words = with_unit(output, words, *names)
         return in_frame(output, first, words) if first[:2] in ("x_", "v_", "y_") and "impact" not in words else words
     title = group[0][2]

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..plots.attractors import name_of
 from ..plots.data import FIRST_FAILURE
+from ..plots.per_period import PER_PERIOD, TOTALS, compared
 
 MOST = 300  # rows
 
@@ -90,8 +91,10 @@ def motions(output):
 
 
 def extremes(output, points):
-    rows = []
+    rows, of_all = [], compared(output)
     for name, variable, part in points.columns:
+        if variable.name in TOTALS and PER_PERIOD in of_all[variable.name].long_name:
+            name, variable = f"{name} {PER_PERIOD}", of_all[variable.name]
         values = variable.values[(..., *part)]
         if values.dtype.kind not in "fiu" or name == "status":
             continue
