@@ -13,7 +13,7 @@ BUILD = Path(CLATTER).parents[2]
 
 # Scripts are for users, or for those who work on clatter with its sources: a new one is in one of the two.
 FOR_USERS = (
-    *("plot.py", "report.py", "clatter/**/*.py", "clatter/reports/page.css", "clatter/reports/page.js"),
+    *("plot.py", "report.py", "clatter/**/*.py", "clatter/reports/*.css", "clatter/reports/*.js"),
     *("score_solver.py", "slurm/submit.sh", "slurm/sweep.sbatch"),
 )
 FOR_SOURCES = (

@@ -9,6 +9,7 @@ import json
 import os
 import subprocess
 import sys
+from itertools import combinations
 from pathlib import Path
 
 import h5py
@@ -27,6 +28,7 @@ CONFIGS = SOURCE / "configs"
 REPORT = ["/usr/bin/python3", SOURCE / "scripts" / "report.py"]
 SWITCHES = "headless no-sandbox disable-gpu disable-quic no-first-run disable-background-networking disable-sync"
 
+SAMPLE = "x0=sobol(-3, 3, 64)", "v0=sobol(-6, 6, 64)", "linked=x0, v0"
 FIRST, SECOND = (0.31, 0.62), (0.77, 0.2)  # places of clicks, as shares of a panel
 DRIVE = (
     "drive_si",
@@ -43,6 +45,7 @@ def pages():
     yield "map", "run", CONFIGS / "map_nu_xs.toml", ("observe.word=true",)
     yield "machine_branch", "branch", CONFIGS / f"{DRIVE[0]}.toml", DRIVE[1]
     yield "it's $(touch  made)", "run", CONFIGS / "hysteresis.toml", ()
+    yield "sample", "run", CONFIGS / "basins.toml", tuple(f"sweep.{change}" for change in SAMPLE)
     yield "infinite", "run", CONFIGS / f"{SOFT[0]}.toml", SOFT[1]
 
 
@@ -156,11 +159,84 @@ def number(text):
     return float("nan" if text == "–" else text)
 
 
+def check_charts(driver, name):
+    """No text of a chart of motion is cut, and none lies on another."""
+    for chart in driver.find_elements(By.CSS_SELECTOR, "svg.history"):
+        boxes = driver.execute_script(
+            """const frame = arguments[0].getBoundingClientRect();
+            return [...arguments[0].querySelectorAll("text")].map((text) => {
+              const box = text.getBoundingClientRect();
+              return [box.left - frame.left, box.top - frame.top, frame.right - box.right, frame.bottom - box.bottom,
+                      box.width, box.height, text.textContent];
+            });""",
+            chart,
+        )
+        for left, top, right, bottom, _, _, text in boxes:
+            require(min(left, top, right, bottom) > -0.5, f"{name}: '{text}' of a chart is cut")
+        for one, other in combinations(boxes, 2):
+            apart = one[0] + one[4] <= other[0] + 0.5 or other[0] + other[4] <= one[0] + 0.5
+            apart = apart or one[1] + one[5] <= other[1] + 1.5 or other[1] + other[5] <= one[1] + 1.5
+            require(apart, f"{name}: '{one[6]}' and '{other[6]}' of a chart lie on each other")
+
+
+def check_access(driver, name):
+    """The picture has a role and a label, and an arrow key tells where the point lies, not all of its numbers."""
+    picture = driver.find_element(By.CSS_SELECTOR, ".picture")
+    label, alt = picture.get_attribute("aria-label"), picture.find_element(By.CSS_SELECTOR, "img").get_attribute("alt")
+    require(picture.get_attribute("role") == "group" and label, f"{name}: the picture has no role or no label")
+    require(alt.startswith(f"{label}: ") and len(alt) > len(label) + 5, f"{name}: the text of the picture is '{alt}'")
+    live = driver.find_elements(By.CSS_SELECTOR, "section [aria-live], section [role=status]")
+    told = [element.get_attribute("textContent") for element in live]
+    require(len(told) == 1 and len(told[0]) < 200, f"{name}: a screen reader is told {told}")
+    for axis in data_in(driver).get("axes", ()):
+        for key in (axis, *axis["linked"]):
+            require(f"{key['name']} = " in told[0], f"{name}: no word of {key['name']} in '{told[0]}'")
+
+
+def check_curves(driver, name):
+    """A click on the curve of each value of a family shows that value, and a click on a dot of a scatter its point."""
+    data, tried = data_in(driver), 0
+    for number, panel in enumerate(data["panels"]):
+        if not (panel.get("families") or panel.get("cloud") or panel.get("plane")):
+            continue
+        for place in driver.execute_script(
+            """const [number] = arguments, explorer = explorers[0], panel = explorer.data.panels[number];
+            const total = explorer.data.shape.reduce((all, size) => all * size, 1), found = [];
+            for (let flat = 0; flat < total && found.length < 60; flat += Math.max(1, Math.floor(total / 60))) {
+              let rest = flat;
+              explorer.chosen = explorer.data.shape.map((_, axis) => {
+                const below = explorer.data.shape.slice(axis + 1).reduce((all, size) => all * size, 1);
+                const at = Math.floor(rest / below);
+                rest %= below;
+                return at;
+              });
+              const [across, along] = explorer.markedIn(panel);
+              const at = [share(panel, 0, across), share(panel, 1, along[0])];
+              if (at.every((part) => part > 0.02 && part < 0.98)) found.push([[...explorer.chosen], at]);
+            }
+            return found;""",
+            number,
+        )[:8]:
+            click(driver, panel["box"], *place[1])
+            chosen = driver.execute_script("return explorers[0].chosen")
+            tried += chosen == place[0]
+            if chosen != place[0]:  # another point may lie there
+                away = driver.execute_script(
+                    """const panel = explorers[0].data.panels[arguments[0]], along = explorers[0].markedIn(panel)[1];
+                    return Math.min(...along.map((value) => Math.abs(share(panel, 1, value) - arguments[1])));""",
+                    *(number, place[1][1]),
+                )
+                require(away < 0.03, f"{name}: a click on {place[0]} shows {chosen}")
+    return tried
+
+
 def check_page(driver, folder, name):
     """A click on every panel that stands for points shows one of them, another click another."""
     open_page(driver, folder / f"{name}.html")
     driver.save_screenshot(str(folder / f"{name}.png"))
     check_point(driver, folder, name)
+    check_charts(driver, name)
+    check_access(driver, name)
     panels, shape = data_in(driver)["panels"], data_in(driver)["shape"]
     require(bool(panels) == (len(shape) > 0), f"{name}: {len(panels)} panels show {shape} points")
     for panel in panels:
@@ -175,6 +251,8 @@ def check_page(driver, folder, name):
         third = check_point(driver, folder, name)
         require(third != second, f"{name}: the arrow key moves to no other point than {second}")
         driver.save_screenshot(str(folder / f"{name}_point.png"))
+        check_charts(driver, name)
+    check_curves(driver, name)
     check_quiet(driver, name)
 
 

@@ -7,6 +7,7 @@ from .data import CREEPING, ESCAPED, FIRST_FAILURE, STARTS, has_failed
 from .maps import OLIVE, class_map, edges_between, name_colours, name_panel
 from .scales import shown_values, tidy_ticks
 from .names import NO_CONTACT, STUCK, has_impacts, label, number, plain, short_word, symbol
+from .shown import note_plane
 from .style import COLOURS, GREEN, SKY, colour_of, legend_above
 
 OTHERS = "#bfbfbf"
@@ -131,6 +132,7 @@ def section_of(output, motion):
 def basin_points(axes, output):
     """Basins of starts that run along one dimension, such as those of Sobol's sequence."""
     first, second = start_plane(output)
+    note_plane(axes, (first, second))
     x, y = (output.values(name) for name in (first, second))
     for name, colour, points in basin_kinds(output):
         if points.any():
@@ -151,6 +153,7 @@ def start_plane(output):
 def value_points(figure, axes, output, name):
     """A result at starts that run along one dimension, in colours."""
     first, second = start_plane(output)
+    note_plane(axes, (first, second))
     values = shown_values(output, name)
     known = np.isfinite(values)
     points = axes.scatter(output.values(first)[known], output.values(second)[known], s=6, lw=0, c=values[known])

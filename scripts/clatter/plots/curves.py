@@ -11,6 +11,7 @@ from .data import ESCAPED, has_failed, lacks_period
 from .scales import COUNTS, is_integer, shown_values
 from .per_period import IN_TIME, PER_PERIOD
 from .names import amount, in_frame, label, plain, result_in_words, symbol, with_unit
+from .shown import note_results
 from .style import BLUE, STOP, colour_of, draw_walls, legend_above, set_axis
 
 MARGIN = 0.012  # of an axis beside its points
@@ -130,6 +131,7 @@ def draw_stops_along(axes, output, name):
 def curves(members, group, axes):
     """One panel of related results over the only axis; `group` lists (variable, component or None, title)."""
     output, first, name = members[0].output, group[0][0], members[0].output.axes[0]
+    note_results(axes, [(result, part) for result, part, _ in group])
     several, shown = len(members) > 1, False
     for place, (member, (result, part, title)) in enumerate(product(members, group)):
         values, status = shown_values(member.output, result), member.output.values("status")

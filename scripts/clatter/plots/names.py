@@ -8,6 +8,7 @@ from itertools import groupby
 import numpy as np
 from matplotlib import mathtext
 
+POWERS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 LONGEST = 12  # letters of a word that is written out
 SHORT = 0.1  # m: lengths that are all below it are written in mm
 STUCK = "(S)"  # the word of a mass that friction holds for good, wherever that is
@@ -124,6 +125,15 @@ def equation(output, name, value):
 def typeset_unit(unit):
     """A unit of the file with its powers raised: m s-1 becomes m s⁻¹, which no line ends within."""
     return re.sub(r"(?<=[A-Za-z])(-?\d+)", r"$^{\1}$", plain(unit)).replace(" ", "\N{NO-BREAK SPACE}")
+
+
+def in_one_line(unit):
+    """A unit of the file without powers: m s-1 becomes m/s, and kg s-2 kg/s²."""
+    over, under = [], []
+    for letters, sign, power in re.findall(r"([^\s\d-]+)(-?)(\d*)", unit):
+        (under if sign else over).append(letters + power.translate(POWERS) * (power not in ("", "1")))
+    below = " ".join(under)
+    return (" ".join(over) or "1") + (f"/({below})" if len(under) > 1 else f"/{below}" if under else "")
 
 
 def number(value):

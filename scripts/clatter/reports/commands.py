@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ..plots.data import FIRST_FAILURE
-from .points import packed
+from .points import keys_along, packed
 
 
 def shell_word(name):
@@ -126,11 +126,6 @@ def section_of(output):
 
 def names_in(text):
     return [name.strip() for name in text.split(",") if name.strip()]
-
-
-def keys_along(output, axis):
-    """The keys of the sweep that have their values along an axis: its own, and those linked to it."""
-    return [key for key in output.sweep if key in output and output[key].dims == (axis,)]
 
 
 def numbers(values):

@@ -1,8 +1,6 @@
 "use strict";
 // Shows the numbers of a point, its motion and its command when a place of the picture is chosen.
 
-const svgNames = "http://www.w3.org/2000/svg";
-
 const bytesOf = async (text) => {
   const packed = Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
@@ -19,11 +17,6 @@ const fromJson = (value) => (value === "inf" ? Infinity : value === "-inf" ? -In
 const element = (name, properties = {}, ...children) => {
   const made = Object.assign(document.createElement(name), properties);
   made.append(...children);
-  return made;
-};
-const drawn = (name, attributes) => {
-  const made = document.createElementNS(svgNames, name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
   return made;
 };
 const clamp = (value, low, high) => Math.min(high, Math.max(low, value));
@@ -47,10 +40,16 @@ class Explorer {
   async begin() {
     const { data } = this;
     if (!data.columns) return this.section.querySelector(".explorer").classList.add("still");
-    for (const axis of data.axes) axis.values = await doubles(axis.values);
+    this.inputs = data.axes.flatMap((axis, place) => [axis, ...axis.linked].map((input) => Object.assign(input, { place })));
+    for (const input of this.inputs) input.values = await doubles(input.values);
     for (const part of data.command) if (part.values) part.values = await doubles(part.values);
     for (const column of data.columns) column.values = await doubles(column.values);
     this.byName = Object.fromEntries(data.columns.map((column) => [column.name, column]));
+    for (const panel of data.panels)
+      for (const [place, result] of (panel.results || []).entries())
+        panel.results[place] = result.values ? await doubles(result.values) : this.byName[result].values;
+    for (const part of ["nearest", "other"])
+      if (data.histories) data.histories[part] = await doubles(data.histories[part]);
     if (data.shape.some((length) => length > 1)) {
       this.picture.classList.add("live");
       this.picture.addEventListener("click", (event) => this.click(event));
@@ -74,8 +73,11 @@ class Explorer {
     const at = [(x - left) / (right - left), (bottom - y) / (bottom - top)];
     if (panel.columns) {
       this.chosen = [this.nearestPoint(panel, at, image)];
+    } else if (panel.plane || panel.cloud) {
+      this.chosen[(panel.axes || [0])[0]] = this.nearestDot(panel, at, image);
     } else {
       panel.axes.forEach((axis, side) => (this.chosen[axis] = this.nearestValue(panel, side, axis, at[side])));
+      if (panel.results) this.chosen = this.nearestCurve(panel, at[1]);
     }
     this.picture.focus({ preventScroll: true });
     this.show();
@@ -90,15 +92,51 @@ class Explorer {
     return best;
   }
 
+  // Places of the chosen point, with the axes that have a curve for each of their values at any of these, and those
+  // that the picture holds at their first.
+  *curvesOf(panel) {
+    const held = this.chosen.map((place, axis) => (panel.axes.includes(axis) ? place : 0));
+    const sizes = panel.families.map((axis) => this.data.shape[axis]);
+    for (let number = sizes.reduce((all, size) => all * size, 1) - 1; number >= 0; number--) {
+      let rest = number;
+      panel.families.forEach((axis, place) => ([held[axis], rest] = [rest % sizes[place], Math.floor(rest / sizes[place])]));
+      yield [...held];
+    }
+  }
+
+  nearestCurve(panel, at) {
+    let best = this.chosen, least = Infinity;
+    for (const index of this.curvesOf(panel))
+      for (const values of panel.results) {
+        const away = Math.abs(share(panel, 1, values[this.flat(index)]) - at);
+        if (away < least) [best, least] = [index, away];
+      }
+    return best;
+  }
+
+  // The numbers across and along of the dots of a panel.
+  dotsIn(panel) {
+    if (panel.plane) return [panel.plane.map((name) => this.inputs.find((input) => input.name === name).values)];
+    return panel.results.map((values) => [this.data.axes[panel.axes[0]].values, values]);
+  }
+
+  nearestDot(panel, at, image) {
+    const found = this.dotsIn(panel).map(([across, along]) => this.nearestOf(panel, across, along, at, image));
+    return found.reduce((best, one) => (one[1] < best[1] ? one : best))[0];
+  }
+
   nearestPoint(panel, at, image) {
-    const [across, along] = panel.columns.map((name) => this.byName[name].values);
+    return this.nearestOf(panel, ...panel.columns.map((name) => this.byName[name].values), at, image)[0];
+  }
+
+  nearestOf(panel, across, along, at, image) {
     const width = (panel.box[2] - panel.box[0]) * image.width, height = (panel.box[3] - panel.box[1]) * image.height;
     let best = 0, least = Infinity;
     across.forEach((value, place) => {
       const away = Math.hypot((share(panel, 0, value) - at[0]) * width, (share(panel, 1, along[place]) - at[1]) * height);
       if (away < least) [best, least] = [place, away];
     });
-    return best;
+    return [best, least];
   }
 
   key(event) {
@@ -126,9 +164,18 @@ class Explorer {
 
   async show() {
     this.mark();
+    const button = document.activeElement?.closest(".point button")?.getAttribute("aria-label");
     const parts = [this.steps(), this.numbers()];
     parts.push(this.command(), await this.history());
     this.side.replaceChildren(...parts.filter(Boolean));
+    if (button) [...this.side.querySelectorAll("button")].find((one) => one.getAttribute("aria-label") === button)?.focus();
+    this.section.querySelector(".told").textContent = this.place();
+  }
+
+  // Where the chosen point lies, in a sentence that a screen reader says; the numbers are read on demand.
+  place() {
+    if (!this.data.axes.length) return this.data.shape.length ? `point ${this.chosen[0] + 1} of ${this.data.shape[0]}` : "";
+    return this.inputs.map((input) => `${input.name} = ${written(input.values[this.chosen[input.place]])}`).join(", ");
   }
 
   mark() {
@@ -142,22 +189,27 @@ class Explorer {
       frame.append(mark);
     };
     for (const panel of this.data.panels) {
-      const values = panel.columns
-        ? panel.columns.map((name) => this.byName[name].values[this.chosen[0]])
-        : panel.axes.map((axis) => this.data.axes[axis].values[this.chosen[axis]]);
       const [left, top, right, bottom] = panel.box;
-      const x = left + share(panel, 0, values[0]) * (right - left);
-      if (!(x >= left - 1e-6 && x <= right + 1e-6)) continue;
-      if (values.length === 1) {
-        add("across", x, top, 0, bottom - top);
-        continue;
-      }
-      const y = bottom - share(panel, 1, values[1]) * (bottom - top);
-      if (!(y >= top - 1e-6 && y <= bottom + 1e-6)) continue;
+      const at = (side, value) => (side ? bottom - share(panel, 1, value) * (bottom - top) : left + share(panel, 0, value) * (right - left));
+      const isIn = (value, low, high) => value >= low - 1e-6 && value <= high + 1e-6;
+      const [across, along] = this.markedIn(panel);
+      const x = at(0, across);
+      if (!isIn(x, left, right)) continue;
+      const heights = along.map((value) => at(1, value)).filter((y) => isIn(y, top, bottom));
+      if (!heights.length && !panel.results && along.length) continue;
       add("across", x, top, 0, bottom - top);
-      add("along", left, y, right - left, 0);
-      add("dot", x, y, 0, 0);
+      if (!panel.results) heights.forEach((y) => add("along", left, y, right - left, 0));
+      heights.forEach((y) => add("dot", x, y, 0, 0));
     }
+  }
+
+  // The number across that a panel has of the chosen point, and those along.
+  markedIn(panel) {
+    if (panel.columns) return ((at) => [at[0], [at[1]]])(panel.columns.map((name) => this.byName[name].values[this.chosen[0]]));
+    if (panel.plane) return ((at) => [at[0], [at[1]]])(this.dotsIn(panel)[0].map((values) => values[this.chosen[0]]));
+    const [across, ...along] = panel.axes.map((axis) => this.data.axes[axis].values[this.chosen[axis]]);
+    const isDrawn = panel.results && [...this.curvesOf(panel)].some((index) => this.flat(index) === this.flat());
+    return [across, isDrawn ? panel.results.map((values) => values[this.flat()]) : along];
   }
 
   // Where the point lies, with buttons to its neighbours.
@@ -175,6 +227,9 @@ class Explorer {
       const value = axis.values ? written(axis.values[this.chosen[place]]) : `${this.chosen[place] + 1} of ${shape[place]}`;
       box.append(button("◀", -1, "previous"), button("▶", 1, "next"), element("span", {}, element("b", { textContent: axis.name }), ` ${axis.title}`),
         element("span", { className: "value", textContent: value }));
+      for (const linked of axis.linked || [])
+        box.append(element("span", { className: "linked" }, element("b", { textContent: linked.name }), ` ${linked.title}`),
+          element("span", { className: "value", textContent: written(linked.values[this.chosen[place]]) }));
     });
     return box;
   }
@@ -213,58 +268,32 @@ class Explorer {
     return element("div", { className: "command" }, element("code", {}, ...words), copy); // no line ends at a hyphen
   }
 
-  // The motion of the point, or of the nearest that has one.
+  // The motion of the point, or of the nearest that has one: by the values of all inputs, and of the same motion if any is.
   async history() {
     const { histories, axes, whole } = this.data;
     if (!histories) return null;
-    const places = histories.indexes.map((indexes, axis) => {
-      const at = whole[axis][this.chosen[axis]];
-      return indexes.reduce((best, index, place) => (Math.abs(index - at) < Math.abs(indexes[best] - at) ? place : best), 0);
-    });
-    const flat = places.reduce((sum, place, axis) => sum * histories.indexes[axis].length + place, 0);
-    const record = histories.records[flat];
-    const nearest = places.map((place, axis) => fromJson(histories.axes[axis][place]));
-    const isOwn = nearest.every((value, axis) => value === axes[axis].values[this.chosen[axis]]);
-    const name = axes.map((axis, place) => `${axis.name} = ${written(nearest[place])}`).join(", ");
-    const heading = isOwn ? "Motion" : `Motion of the nearest point that has one: ${name}`;
+    const record = histories.records[histories.nearest[this.flat()]];
+    let rest = histories.nearest[this.flat()];
+    const places = histories.indexes.map((indexes) => indexes.length).reduceRight((found, size) => {
+      found.unshift(rest % size);
+      rest = Math.floor(rest / size);
+      return found;
+    }, []);
+    const isOwn = places.every((place, axis) => histories.indexes[axis][place] === whole[axis][this.chosen[axis]]);
+    const name = axes.map((axis, i) => `${axis.name} = ${written(fromJson(histories.axes[i][places[i]]))}`).join(", ");
+    const kind = histories.other[this.flat()] ? "Another motion, since none of this one is known" : "Motion of the nearest point that has one";
+    const heading = isOwn ? "Motion" : `${kind}: ${name}`;
     if (!record) return element("p", { className: "quiet", textContent: `${heading}: none` });
-    record.rows ||= await doubles(record.values);
-    const count = record.rows.length / 3;
-    const [tau, x, v] = [0, 1, 2].map((part) => record.rows.subarray(part * count, (part + 1) * count));
-    return element("div", {}, element("div", { className: "quiet", textContent: heading }),
-      chart(tau, x, "τ", "x", record.stops, false), chart(x, v, "x", "x′", record.stops, true));
+    record.numbers ||= await doubles(record.values);
+    const width = 1 + Math.max(...histories.charts.flatMap(({ rows }) => rows).flat());
+    const count = record.numbers.length / width;
+    const row = (number, scale) => record.numbers.subarray(number * count, (number + 1) * count).map((value) => value * scale);
+    const drawings = histories.charts.map(({ rows: [across, along], names, scales, stops }) =>
+      chart(row(across, scales[0]), along.map((number) => row(number, scales[1])), names,
+        stops ? record.stops.map((stop) => stop * scales[stops === "across" ? 0 : 1]) : [], stops === "across"));
+    return element("div", {}, element("div", { className: "quiet", textContent: heading }), ...drawings.filter(Boolean));
   }
 }
-
-// A line through points in a frame, with the least and greatest numbers of both sides.
-const chart = (across, along, acrossName, alongName, stops, stopsAcross) => {
-  const [width, height, left, bottom] = [420, 150, 46, 18];
-  const range = (values, more) => [Math.min(...values, ...more), Math.max(...values, ...more)];
-  const [x0, x1] = range(across, stopsAcross ? stops : []), [y0, y1] = range(along, stopsAcross ? [] : stops);
-  const px = (x) => left + ((x - x0) / (x1 - x0 || 1)) * (width - left - 4);
-  const py = (y) => height - bottom - ((y - y0) / (y1 - y0 || 1)) * (height - bottom - 6);
-  const svg = drawn("svg", { viewBox: `0 0 ${width} ${height}`, class: "history", role: "img" });
-  svg.setAttribute("aria-label", `${alongName} over ${acrossName}`);
-  const line = (kind, a, b, c, d) => svg.append(drawn("line", { class: kind, x1: a, y1: b, x2: c, y2: d }));
-  svg.append(drawn("rect", { class: "frame", x: left, y: 6, width: width - left - 4, height: height - bottom - 6 }));
-  for (const stop of stops)
-    stopsAcross ? line("stop", px(stop), 6, px(stop), height - bottom) : line("stop", left, py(stop), width - 4, py(stop));
-  const points = Array.from(across, (x, i) => `${px(x).toFixed(2)},${py(along[i]).toFixed(2)}`).join(" ");
-  svg.append(drawn("polyline", { class: "motion", points }));
-  const label = (text, x, y, anchor) => {
-    const made = drawn("text", { x, y, "text-anchor": anchor });
-    made.textContent = text;
-    svg.append(made);
-  };
-  const short = (value) => String(Number(value.toPrecision(4))).replace("-", "−");
-  label(short(y1), left - 4, 14, "end");
-  label(short(y0), left - 4, height - bottom, "end");
-  label(alongName, left - 4, (height - bottom) / 2 + 6, "end");
-  label(short(x0), left, height - 5, "start");
-  label(short(x1), width - 4, height - 5, "end");
-  label(acrossName, (left + width) / 2, height - 5, "middle");
-  return svg;
-};
 
 const explorers = [...document.querySelectorAll("section.file")].map(
   (section) => new Explorer(section, JSON.parse(section.querySelector("script").textContent)));

@@ -56,7 +56,8 @@ def check_place(path):
 
 def page(outputs, title, may_run):
     """The page as text; the same for the same files."""
-    script, style = (Path(HERE / f"page.{kind}").read_text(encoding="utf-8") for kind in ("js", "css"))
+    charts, script, style = ((HERE / name).read_text(encoding="utf-8") for name in ("charts.js", "page.js", "page.css"))
+    script = f"{charts}\n{script}"
     title = title or outputs[0].title or Path(shown_name(outputs[0].path)).stem
     many = len(outputs) > 1
     sections = [section(place, output, may_run, many) for place, output in enumerate(outputs)]
@@ -81,12 +82,12 @@ def hashed(content):
 def section(place, output, may_run, has_title):
     """All of one file."""
     points = Points(output) if not output.is_accuracy else None
-    svg, panels = picture(output)
+    svg, panels, words = picture(output, points)
     name = Path(shown_name(output.path)).stem
     data = {"panels": panels, **(points.packed() if points else {"shape": [0]})}
     notes = []
     try:
-        data["histories"] = histories(output, may_run)
+        data["histories"] = histories(output, points, may_run)
     except NoHistories as reason:
         notes.append(str(reason))
     if points and not points.are_all:
@@ -97,12 +98,13 @@ def section(place, output, may_run, has_title):
     if points:
         data["command"] = command(output, points)
         notes += command_notes(output, f"{name}.toml")
+    subject = f"Picture of {output.title or name}"
     explorer = f"""<div class=explorer>
-<figure class=picture tabindex=0>
-<div class=frame><img alt="Picture of {escape(name)}" src="data:image/svg+xml;base64,{encoded(svg)}"></div>
-<figcaption class=script>Click on the picture, or step through the points by the arrow keys, ten at a time with Shift.
-</figcaption></figure>
-<aside class=point aria-live=polite></aside>
+<figure class=picture tabindex=0 role=group aria-label="{escape(subject)}" aria-describedby="how-{place}">
+<div class=frame><img alt="{escape(f"{subject}: {words}")}" src="data:image/svg+xml;base64,{encoded(svg)}"></div>
+<figcaption class=script id="how-{place}">Click on the picture, or step through the points by the arrow keys, ten at a
+time with Shift.</figcaption></figure>
+<p class=told role=status></p><aside class=point aria-label="Chosen point"></aside>
 </div>"""
     return (
         f'<section class=file id="file-{place}">\n{f"<h2>{escape(output.title or name)}</h2>" if has_title else ""}\n'

@@ -1,18 +1,20 @@
 """The picture of an output for a page, and which point lies under each of its places."""
 
 import io
+import re
 
 from ..plots import names, options, pictures, style
 from ..plots.branch import chosen, parameter_of, plane_of
 from ..plots.choice import members_of
 from ..plots.maps import AxesImage
+from ..plots.shown import plane_in, results_in
 
 LARGEST = 1_500_000  # bytes of a picture
 RESOLUTIONS = (150, 110, 80, 55)  # dots per inch of what is drawn as an image
 
 
-def picture(output):
-    """The picture as SVG, and its panels."""
+def picture(output, points):
+    """The picture as SVG, its panels, and what it shows in words."""
     choices = options.choices([output.path])
     if output.is_branch:
         figure = pictures.branches_together(choices)
@@ -23,9 +25,20 @@ def picture(output):
     else:
         members = members_of(output)
         figure = pictures.figure_of(members, choices)
-        panels = sweep_panels(figure, output, members[0].output)
-    svg = svg_of(figure)
-    return svg, panels
+        panels = sweep_panels(figure, points, [member.output for member in members])
+    return svg_of(figure), panels, in_words(figure)
+
+
+def in_words(figure):
+    """What the panels of a figure show, without symbols and units: "displacement, velocity over nu"."""
+    panels = [axes for axes in figure.axes if axes.axison and axes.get_label() != "<colorbar>"]
+    shown = dict.fromkeys(without_symbols(axes.get_title() or axes.get_ylabel()) for axes in panels)
+    over = dict.fromkeys(without_symbols(axes.get_xlabel()) for axes in panels)
+    return " over ".join(", ".join(filter(None, words)) for words in (shown, over) if any(words))
+
+
+def without_symbols(text):
+    return " ".join(re.sub(r"\$[^$]*\$|\([^)]*\)", " ", text).split()).replace(" ,", ",")
 
 
 def svg_of(figure):
@@ -45,8 +58,10 @@ def branch_panels(figure, output):
     return [frame(axes, columns=[parameter_of(output), name]) for axes, name in zip(figure.axes, chosen(()))]
 
 
-def sweep_panels(figure, output, shown):
-    """Panels whose places stand for points: maps of the two axes that are shown, curves or areas over one of them."""
+def sweep_panels(figure, points, outputs):
+    """Panels whose places stand for points: maps of the two axes that are shown, curves or areas over one of them, dots
+    at two inputs."""
+    output, shown = points.output, outputs[0]
     places = [output.axes.index(axis) for axis in shown.axes]
     panels = []
     for axes in figure.axes:
@@ -54,10 +69,27 @@ def sweep_panels(figure, output, shown):
             continue
         if len(places) == 2 and any(isinstance(image, AxesImage) for image in axes.images):
             panels.append(frame(axes, axes=places))
+        elif plane_in(axes):
+            panels.append(frame(axes, plane=plane_in(axes)))
         else:
             across = [place for place, axis in zip(places, shown.axes) if lies_across(axes, shown, axis)]
-            panels += [frame(axes, axes=[place]) for place in across]
+            panels += [frame(axes, axes=[place], **curves_in(axes, points, outputs)) for place in across]
     return panels
+
+
+def curves_in(axes, points, outputs):
+    """The results along the ordinate of a panel, the axes of which each value has its own curves, and whether they are
+    dots instead."""
+    results = [values for part in results_in(axes) for values in points.drawn(*part)]
+    if not results:
+        return {}
+    held = [output.held for output in outputs]
+    families = [axis for axis in held[0] if len({one[axis] for one in held}) > 1]
+    return {
+        "results": results,
+        "families": [points.output.axes.index(axis) for axis in families],
+        "cloud": any(output.is_cloud for output in outputs),
+    }
 
 
 def lies_across(axes, shown, axis):

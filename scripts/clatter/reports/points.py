@@ -6,6 +6,8 @@ import zlib
 
 import numpy as np
 
+from ..plots.per_period import TOTALS, compared
+
 MOST = 200  # points along an axis of a map
 ROOM = 2_600_000  # bytes of all numbers in a page
 PACKED = 11  # bytes of a double that doesn't compress
@@ -62,13 +64,26 @@ class Points:
         }
 
     def axis(self, place):
-        name, kept = self.axes[place], self.kept[place]
+        """An axis and the keys that are linked to it."""
+        own, *linked = keys_along(self.output, self.axes[place]) or [self.axes[place]]
+        return {**self.input(own, place), "linked": [self.input(name, place) for name in linked]}
+
+    def input(self, name, place):
         unit = self.output[name].units
         return {
             "name": name,
             "title": self.output[name].long_name + (f" ({unit})" if unit != "1" else ""),
-            "values": packed(self.output.values(name)[kept]),
+            "values": packed(self.output.values(name)[self.kept[place]]),
         }
+
+    def drawn(self, name, part):
+        """The numbers of a result, or a component of it, as pictures draw it: the name of a column, or the numbers;
+        nothing if a page has no such column."""
+        columns = [own for own, variable, place in self.columns if variable.name == name and place in ((), (part,))]
+        if name not in TOTALS or not columns:
+            return columns[:1]
+        values = compared(self.output).values(name)[np.ix_(*self.kept)]
+        return [{"values": packed(values if part is None else values[..., part])}]
 
     def column(self, name, variable, part):
         values = variable.values[np.ix_(*self.kept)][(..., *part)] if self.kept else variable.values[part]
@@ -79,6 +94,12 @@ class Points:
             texts, codes = np.unique(np.ravel(values).astype(str), return_inverse=True)
             item["texts"], values = dict(enumerate(map(str, texts))), codes
         return {**item, "values": packed(values)}
+
+
+def keys_along(output, axis):
+    """The keys of the sweep that have their values along an axis: its own first, and those linked to it."""
+    keys = [key for key in output.sweep if key in output and output[key].dims == (axis,)]
+    return sorted(keys, key=lambda key: key != axis)
 
 
 def packed(values):
