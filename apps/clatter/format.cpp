@@ -38,6 +38,13 @@ std::string coordinates_text(const sweep::Sweep& sweep, std::size_t point) {
 
 std::string unit_text(std::string_view units) {
   if (units == "1") return "";
+  if (const std::size_t slash = units.find('/'); slash != std::string_view::npos) {  // of a derivative: m/(N m-1)
+    std::string_view by = units.substr(slash + 1);
+    if (by.starts_with('(') && by.ends_with(')')) by = by.substr(1, by.size() - 2);
+    const std::string above = unit_text(units.substr(0, slash)), below = unit_text(by);
+    const bool is_long = below.find_first_of("/ ") != std::string::npos;
+    return (above.empty() ? "1" : above) + '/' + (is_long ? '(' + below + ')' : below);
+  }
   std::string over, under;
   for (std::size_t begin = 0; begin < units.size();) {
     const std::size_t end = std::min(units.find(' ', begin), units.size());

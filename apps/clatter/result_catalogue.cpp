@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <map>
+#include <optional>
 #include <variant>
 
 #include "accuracy/accuracy_dataset.hpp"
@@ -114,6 +117,25 @@ std::vector<CataloguedResult> catalogue() {
   return all;
 }
 
+/// Of a derivative by any key that sensitivities take, as d_x_max_d_gap; the catalogue has those by one of them.
+std::optional<CataloguedResult> derivative_named(std::string_view name) {
+  constexpr std::string_view by = "_d_";
+  const std::size_t at = name.rfind(by);
+  if (!name.starts_with("d_") || at == std::string_view::npos) return std::nullopt;
+  const std::optional<Parameter> key = Parameter::of(name.substr(at + by.size()));
+  if (!key || key->role() == Role::start) return std::nullopt;
+  config::Config scene = config_with_all(in_scene), machine = config_with_all(in_machine);
+  for (config::Config* const config : {&scene, &machine}) {
+    config->sweep.problem.observe.sensitivity = {};
+    config->sweep.problem.observe.sensitivity.insert(*key);
+  }
+  const results::Dataset dataset = described("run", scene), in_si = described("run", machine);
+  const auto own = std::ranges::find(dataset.variables, name, &results::Variable::name);
+  const auto same = std::ranges::find(in_si.variables, name, &results::Variable::name);
+  if (own == dataset.variables.end() || same == in_si.variables.end()) return std::nullopt;
+  return catalogued("run", *own, key->is_in("machine") ? *same : *own, scene.sweep);
+}
+
 }  // namespace
 
 std::span<const CataloguedResult> result_catalogue() {
@@ -125,6 +147,10 @@ std::vector<const CataloguedResult*> results_named(std::string_view name) {
   std::vector<const CataloguedResult*> named;
   for (const CataloguedResult& result : result_catalogue())
     if (result.name == name) named.push_back(&result);
+  if (!named.empty()) return named;
+  static std::map<std::string, std::optional<CataloguedResult>, std::less<>> derivatives;
+  const auto known = derivatives.try_emplace(std::string(name), derivative_named(name)).first;
+  if (known->second) named.push_back(&*known->second);
   return named;
 }
 

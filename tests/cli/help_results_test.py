@@ -77,6 +77,39 @@ class HelpOnResults(CommandLine):
                 results.append((command, entry[1], entry[2]))
         return results
 
+    def test_derivatives_by_any_key_are_explained(self):
+        for name, words, unit in (
+            ("d_x_max_d_gap", "derivative of x_max by gap", "none"),
+            ("d_impact_speed_d_gap", "derivative of impact_speed by gap", "m/s/m of a [machine], else none"),
+            ("d_impact_speed_d_stiffness", "derivative of impact_speed by stiffness", "m/s/(N/m) of a [machine]"),
+            ("d_period_d_damping", "derivative of period by damping", "s/(N s/m) of a [machine]"),
+            ("d_x_min_d_xs", "derivative of x_min by xs", "none"),
+            ("d_z_max_d_loose_gap", "derivative of z_max by loose_gap", "none"),
+        ):
+            page = self.page("help", name)
+            self.assertTrue(page.startswith(f"{name} in files of `clatter run`\n  {words}\n"), page)
+            self.assertRegex(page, rf"\n  unit +{re.escape(unit)}")
+            self.assertIn("observe.sensitivity", page)
+        for name in ("d_x_max_d_x0", "d_x_max_d_none", "d_none_d_gap", "d_d_gap"):
+            result = self.clatter("help", name)
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+
+    def test_units_of_derivatives_are_those_that_people_write(self):
+        scene = OBSERVED.split("[observe]")[0].replace("[sweep]", "R = 0.7\n[sweep]").replace("stop_stiffness", "#")
+        self.write("s.toml", scene + "[observe]\nimpacts = true\nsensitivity = 'gap, stiffness, mass'\n")
+        gap = "gap = '1 mm'\n"
+        self.write(
+            "s.toml",
+            (self.directory / "s.toml")
+            .read_text()
+            .replace('gap = ["1 mm", "2 mm"]\n', "")
+            .replace("[sweep]", gap + "[sweep]"),
+        )
+        self.assertEqual(self.clatter("run", "s.toml", "-o", "s.h5", "-q").returncode, 0)
+        for key, unit in (("gap", "m/s/m"), ("stiffness", "m/s/(N/m)"), ("mass", "m/s/kg")):
+            page = self.page("info", "s.h5", "--max", f"d_impact_speed_d_{key}")
+            self.assertRegex(page, rf"\n  -?[\d.e-]+ {re.escape(unit)} at ")
+
     def test_every_result_is_explained(self):
         results = self.results()
         self.assertGreater(len(results), 100)

@@ -4,6 +4,7 @@ why it is empty.
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
+import re
 import unittest
 
 import numpy as np
@@ -80,16 +81,58 @@ class Labels(ScenePictures):
 
     def test_a_machine_is_labelled_by_its_own_keys(self):
         figure = self.figure("dampers")
-        self.assertEqual(figure.axes[0].get_xlabel(), "damping_ratio")
+        self.assertEqual(figure.axes[0].get_xlabel(), "damping ratio")
         for name in ("machine", "machine_point", "dampers", "machine_map"):
             figure = self.figure(name)
             texts = [axes.get_xlabel() + axes.get_ylabel() + axes.get_title() for axes in figure.axes]
             texts += [figure._suptitle.get_text(), self.caption(figure)]
-            for words in ("$h$", r"\tau", "x_s", r"\nu", "xs", "tau"):
+            for words in ("$h$", r"\tau", "x_s", r"\nu", "xs", "tau", "damping_ratio"):
                 self.assertNotIn(words, " ".join(texts), name)
-        self.assertIn("damping_ratio = 0.1", self.figure("machine")._suptitle.get_text())
+        self.assertIn("damping ratio = 0.1", self.figure("machine")._suptitle.get_text())
         heading = self.figure("damped_stops")._suptitle.get_text()
-        self.assertIn("stop_damping = 20\N{NO-BREAK SPACE}N\N{NO-BREAK SPACE}s\N{NO-BREAK SPACE}m$^{-1}$", heading)
+        self.assertIn(
+            "damping of the stops = 20\N{NO-BREAK SPACE}N\N{NO-BREAK SPACE}s\N{NO-BREAK SPACE}m$^{-1}$", heading
+        )
+
+    def test_starts_at_0_are_not_told(self):
+        for name in ("machine", "large", "dampers"):
+            self.assertNotIn("(0)", self.figure(name)._suptitle.get_text())
+        text = "[scene]\nf = 1\nh = 0.1\nxs = 3\nv0 = 0.5\n[sweep]\nnu = [0.9, 1]\n[observe]\nextrema = true\n"
+        self.run_text("started", text, "run")
+        heading = self.figure("started")._suptitle.get_text()
+        self.assertIn("(0)$ = 0.5", heading)
+        self.assertNotIn("(0)$ = 0\n", heading + "\n")
+
+    def test_no_key_with_an_underscore_is_in_a_caption(self):
+        scene = "[machine]\nmass = 10\nstiffness = 4e4\ndamping_ratio = 0.005\nforce = 5\nloose_gap = '5 mm'\n"
+        text = scene + "loose_R = 0.6\nloose_mass = 0.5\nloose_v0 = 0.1\n[sweep]\nfrequency = [9.9, 10]\n"
+        self.run_text("damper", text + "[time]\nmax_periods = 50\n[observe]\nextrema = true\n", "run")
+        heading = self.figure("damper")._suptitle.get_text()
+        plain = re.sub(r"\$[^$]*\$", "", heading)
+        self.assertNotRegex(plain, r"\w_\w")
+        self.assertIn("damping ratio = 0.005", plain)
+        counts = [line.count(" = ") for line in heading.split("\n") if " = " in line]
+        self.assertLessEqual(max(counts) - min(counts), 2, heading)  # none stands alone in its line
+
+    def test_a_panel_of_impacts_begins_with_the_motion(self):
+        text = "[scene]\nf = -1\nh = 0.1\nR = 0.7\nxs = -3\nnu = 0.9\n[time]\nmax_periods = 200\nwindow = {}\n"
+        for window, shown in ((5, 5), (20, 20), (64, 20)):
+            self.run_text("short", text.format(window) + "[observe]\ntrajectory = 801\nimpact_log = true\n", "run")
+            self.assertEqual(int(self.output("short").values("status")), 1)
+            figure = self.figure("short")
+            tau = self.output("short").values("tau")
+            ends = {axes.get_xlim() for axes in figure.axes if axes.get_ylabel().startswith("velocity before")}
+            ((begin, end),) = ends
+            self.assertEqual(end, tau[-1])
+            self.assertAlmostEqual(begin, tau[-1] - shown * 2 * np.pi / 0.9, delta=1e-9 * tau[-1])
+            self.assertGreaterEqual(begin, 0)
+
+    def test_a_few_states_of_a_section_are_seen(self):
+        text = "[scene]\nf = -1\nh = 0.1\nR = 0.7\nxs = 0.5\nnu = 1.4\n[observe]\nsection = {}\n"
+        for count in (1, 4):
+            self.run_text("states", text.format(count), "run")
+            (line,) = [line for line in self.figure("states").axes[0].lines if len(line.get_xdata())]
+            self.assertGreaterEqual(line.get_markersize(), 8)  # of ".", a disc of half of that
 
     def test_an_empty_panel_says_that_there_are_no_impacts(self):
         for name, options in (

@@ -8,7 +8,7 @@ from .names import NO_CONTACT, in_frame, label, short_word, symbol, with_unit
 from .empty import say_empty
 from .style import BLUE, CYCLE, GREEN, STOP, VERMILION, colour_of, legend_above, set_axis
 
-MANY = 2000  # points, from which on they are small
+FEW, MANY = 40, 2000  # points, up to which they are large, and from which on they are small
 WORD = "impact word"  # marks the texts that may have to go
 CHANGE = "_nolegend_: another word"  # marks the lines between neighbours, in no legend
 ROOM = 1.5  # points, beside a word
@@ -16,9 +16,11 @@ CRITICAL = 0.97  # modulus from which on a multiplier tells which bifurcation is
 
 
 def dots(axes, x, y, color, title=None):
-    """Points, as one image in vector formats; the more there are, the smaller, and at last translucent."""
+    """Points, as one image in vector formats; the more there are, the smaller, and at last translucent. A few are as
+    large as they can be told apart."""
     many, crowded = len(x) > MANY, len(x) > 100 * MANY
-    style = {"marker": ","} if crowded else {"marker": ".", "mew": 0, "ms": 1.6 if many else 4.0}
+    size = 1.6 if many else 4.0 if len(x) > FEW else 9.0
+    style = {"marker": ","} if crowded else {"marker": ".", "mew": 0, "ms": size}
     axes.plot(x, y, ls="none", color=color, alpha=0.4 if crowded else None, rasterized=True, **style)
     if title:
         axes.plot([], [], ls="none", marker="o", mew=0, ms=4, color=color, label=title)

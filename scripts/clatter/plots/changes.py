@@ -41,8 +41,9 @@ def impacts_of_one_period(output):
 
 def swaps(output):
     """Whether the next point is nearer to the mirror image of each point than to the point."""
-    own, mirrored = features(output)
-    mirror = has_mirror(output)
+    with np.errstate(invalid="ignore"):  # stops that aren't there are infinite
+        own, mirrored = features(output)
+        mirror = has_mirror(output)
     if not len(own):
         return np.zeros(max(len(mirror) - 1, 0), bool)
     scale = np.nanmax(np.abs(own), axis=1, initial=0.0, where=np.isfinite(own))[:, None]

@@ -64,8 +64,9 @@ def shown_motion(output, index):
 
 
 def first_shown(output, index):
-    """The time from which on motion without a period is drawn."""
-    return output.values("tau")[index][-1] - LAST_PERIODS * output.forcing_period(index)
+    """The time from which on motion without a period is drawn: that of its last forcing periods, if it has so many."""
+    tau = output.values("tau")[index]
+    return max(tau[0], tau[-1] - LAST_PERIODS * output.forcing_period(index))
 
 
 def mark_impacts(output, index, draw, color):

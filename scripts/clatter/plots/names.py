@@ -28,8 +28,14 @@ def names_of(output, name):
 
 
 def symbol(output, name):
-    """The symbol of a variable or constant; its name in the file if it has none."""
-    return names_of(output, name)[1] or name.replace("_", " ")
+    """The symbol of a variable or constant; its words if it has none but its key."""
+    sign = names_of(output, name)[1]
+    return words_of(output, name) if is_key(sign) else sign or name.replace("_", " ")
+
+
+def is_key(sign):
+    """Whether a symbol is only the key of a configuration, e.g. damping_ratio."""
+    return "_" in sign and "$" not in sign
 
 
 def words_of(output, name):
@@ -41,6 +47,8 @@ def words_of(output, name):
 def label(output, name):
     """Axis label: words and symbol if the name is known, else long_name; the unit unless it is 1."""
     words, sign = names_of(output, name)
+    if is_key(sign):
+        words, sign = words or words_of(output, name), ""
     variable = variable_of(output, name)
     if name == "impacts_per_period" and output.is_transient:
         words = ""

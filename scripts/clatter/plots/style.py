@@ -107,8 +107,17 @@ def names_key(title, key):
 
 
 def constant_lines(figure, entries):
-    """Entries in lines that fit a figure, a few in each."""
-    most, room, lines = int(1.2 * figure.get_figwidth()), 0.97 * figure.bbox.width, []
+    """Entries in lines that fit a figure, in as many as they need, and about as many in each."""
+    most = int(1.2 * figure.get_figwidth())
+    needed = len(filled_lines(figure, entries, most))
+    fewest = -(-len(entries) // max(needed, 1))
+    found = (filled_lines(figure, entries, count) for count in range(fewest, most + 1))
+    return next((lines for lines in found if len(lines) == needed), [])
+
+
+def filled_lines(figure, entries, most):
+    """Entries in lines of so many at most, each as full as a figure has room for."""
+    room, lines = 0.97 * figure.bbox.width, []
     for entry in entries:
         longer = [*lines[-1], entry] if lines else []
         if 0 < len(longer) <= most and heading_width(figure, ",   ".join(longer)) <= room:
@@ -180,7 +189,8 @@ def gathered(notes):
 
 def constants(output, title, others=()):
     """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
-    nothing = ("phase", "load", "loose_load", "damping", "friction", "stop_amplitude", "base_amplitude", "stop_phase")
+    starts = ("x0", "v0", "loose_x0", "loose_v0", "phase")
+    nothing = (*starts, "load", "loose_load", "damping", "friction", "stop_amplitude", "base_amplitude", "stop_phase")
     stiffnesses = ("stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
     hidden = {
         **dict.fromkeys(nothing, 0.0),
