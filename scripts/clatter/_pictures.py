@@ -15,6 +15,7 @@ def plot(
     along=None,
     over=None,
     at=None,
+    scatter=None,
     size=None,
     xlim=None,
     ylim=None,
@@ -31,6 +32,8 @@ def plot(
     over: the axis of which each value has a curve; by default those with few values.
     at: values of axes, the nearest is taken, e.g. {"xs": 4.0}; of several, [2.0, 4.0], each is a curve. Numbers are in
         the units of the file, texts may have their own, e.g. {"gap": "1.5 mm"}.
+    scatter: a key that is swept, along an axis of its own or linked to another: each point is a dot over it, in the
+        colour of its impact word, if the file has words.
     size: width and height in inches, 1 to 100.
     xlim, ylim: two limits of the abscissa, or ordinate, of every panel, likewise, e.g. ("10 Hz", "40 Hz").
     log: "x", "y" or "xy", the logarithmic scales.
@@ -40,7 +43,7 @@ def plot(
     Raises ClatterError: its exit_code is 74 if a file can't be read, 2 if it doesn't offer what is chosen, or if the
     files share no picture. TypeError if a value is of no such type; ImportError without the extra clatter[plot].
     """
-    words = _words(only, along, over, at, size, xlim, ylim, log, backbone, title)
+    words = _words(only, along, over, at, scatter, size, xlim, ylim, log, backbone, title)
     with needing("plot"):
         from .plots import options, pictures, style
     with _in_words_of_python():
@@ -104,9 +107,9 @@ def _paths(files):
     return paths
 
 
-def _words(only, along, over, at, size, xlim, ylim, log, backbone, title):
+def _words(only, along, over, at, scatter, size, xlim, ylim, log, backbone, title):
     """The choices as words of a command line, which checks them."""
-    texts = {"only": only, "along": along, "over": over, "log": log, "title": title}
+    texts = {"only": only, "along": along, "over": over, "scatter": scatter, "log": log, "title": title}
     if not isinstance(only, str):
         texts["only"] = _joined("only", only)
     pairs = {"xlim": (xlim, ","), "ylim": (ylim, ","), "size": (size, "x")}

@@ -40,7 +40,9 @@ SCENES = {
     "square": FORCED + '[sweep]\nnu = "linspace(0.8, 1.2, 60)"\nxs = "linspace(1, 5, 50)"\n'
     "[time]\nmax_periods = 60\n[observe]\nextrema = true\n",
 }
-NO_CHOICE = SimpleNamespace(only=(), along="", over="", at=(), size=None, xlim=None, ylim=None, log="", title=None)
+NO_CHOICE = SimpleNamespace(
+    only=(), along="", over="", at=(), scatter="", size=None, xlim=None, ylim=None, log="", title=None
+)
 
 
 class Maps(unittest.TestCase):

@@ -76,7 +76,9 @@ CONFIGURATIONS |= {
     "[sweep]\nf = 'linspace(0.008, 0.011, 7)'\n[time]\nmax_periods = 2000\n"
     "[observe]\nextrema = true\nimpacts = true\nstability = true\n",
 }
-NO_CHOICE = SimpleNamespace(only=(), along="", over="", at=(), size=None, xlim=None, ylim=None, log="", title=None)
+NO_CHOICE = SimpleNamespace(
+    only=(), along="", over="", at=(), scatter="", size=None, xlim=None, ylim=None, log="", title=None
+)
 
 
 def choice(**options):

@@ -145,7 +145,9 @@ def basin_points(axes, output):
 
 
 def start_plane(output):
-    """The two starts that are linked along the only axis; empty if there is none."""
+    """The two starts that are linked along the only axis; empty if there is none, or dots over a key are asked for."""
+    if output.is_scattered:
+        return []
     linked = [name for name in STARTS if name in output and output[name].dims == output.axes]
     return linked[:2] if len(linked) >= 2 else []
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .._program import WRONG_USE, ClatterError
+from .along import led_by, scattered, swept_keys
 from .data import PHASE, STARTS, Output
 from .names import equation, plain, symbol
 from .per_period import TOTALS, compared
@@ -32,17 +33,19 @@ class Member:
     output: Output
 
 
-def members_of(output, along="", over="", at=()):
+def members_of(output, along="", over="", at=(), scatter=""):
     """The outputs that share the picture of one file, at most one of them if they have two axes. Where points are
     compared, totals are per forcing period."""
-    members = chosen_members(compared(output), along, over, at)
+    members = chosen_members(compared(output), along, over, at, scatter)
     if not members[0].output.axes:
-        members = chosen_members(output, along, over, at)
+        members = chosen_members(output, along, over, at, scatter)
     return [Member(member.title, member.output.without_infinite_values()) for member in members]
 
 
-def chosen_members(output, along, over, at):
+def chosen_members(output, along, over, at, scatter):
     """The same with all the values of their axes, infinite ones, too."""
+    for key in (along, over, *(name for name, _ in at)):
+        output = led_by(output, key)
     several = []  # axes of which some values are chosen: each has its own curves
     for axis in dict.fromkeys(axis for axis, _ in at):
         require_axis(output, axis, "--at")
@@ -52,6 +55,8 @@ def chosen_members(output, along, over, at):
             several.append(axis)
         else:
             output = output.at(axis, indexes[0])
+    if scatter:
+        return [Member("", scattered_over(output, scatter, along, over))]
     if along in several:
         raise ChoiceProblem(
             f"--along {along}: --at chooses values of it, which are a curve each; leave one of them out"
@@ -59,6 +64,8 @@ def chosen_members(output, along, over, at):
     for axis, option in ((along, "--along"), (over, "--over")):
         if axis:
             require_axis(output, axis, option)
+    if along and output.is_cloud:
+        output = scattered(output, along)
     if along and along == over:
         raise ChoiceProblem(f"--along and --over both name '{along}'; name two axes")
     if len(output.axes) < 2:
@@ -74,6 +81,16 @@ def chosen_members(output, along, over, at):
         if axis not in (along, *families):
             output = output.at(axis, 0)
     return [Member(*part) for part in parts(output, families)]
+
+
+def scattered_over(output, key, along, over):
+    """All points of the output over a key that is swept."""
+    if along or over:
+        raise ChoiceProblem(f"--scatter {key} conflicts with --{'along' if along else 'over'}; leave one of them out")
+    if key not in swept_keys(output):
+        there = ", ".join(swept_keys(output)) or "no keys"
+        raise ChoiceProblem(f"--scatter: '{key}' isn't swept in this file; there are {there}")
+    return scattered(output, key)
 
 
 def families_of(output, along, over, several):

@@ -123,6 +123,8 @@ def draw_stops_along(axes, output, name):
     words = "reach of the stops" if output.is_absolute else "stops"
     if np.ptp(lower) == 0.0 and np.ptp(upper) == 0.0 or not np.isfinite([lower, upper]).all():
         return draw_walls(axes, lower.flat[0], upper.flat[0], named=words)
+    if output.is_cloud:  # no line runs along its points
+        return None
     for place, stop in enumerate((lower, upper)):
         axes.plot(along, stop, color=STOP, lw=1.0, ls=(0, (5, 2)), zorder=1.5, label=None if place else words)
     return None

@@ -44,6 +44,7 @@ class Output:
                 branch[key]: branch.get(f"{key}_range", branch["range"]) for key in ("along", "across") if key in branch
             }
         self.held = {}  # axes at one value each
+        self.is_scattered = False  # a dot for each point is asked for
         self.left_out = set()  # axes without their infinite values
         for name, words in self.names_of_results().items():
             if name in self:
@@ -108,7 +109,7 @@ class Output:
     @property
     def is_cloud(self):
         """Whether the only axis stands for several that are sampled together, so that no curve runs along it."""
-        return sum(self[name].dims == tuple(self.axes) for name in self.sampled) > 1
+        return self.is_scattered or sum(self[name].dims == tuple(self.axes) for name in self.sampled) > 1
 
     @property
     def goes_down(self):

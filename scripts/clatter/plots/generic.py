@@ -23,6 +23,7 @@ from .housing import both_masses, housing_plane
 from .impact_phases import phases_panel
 from .maps import Grid, kind_map, quantity, regime_map, value_map
 from .motion import chosen_points, impact_log, phase_plane, time_history
+from .scatter import word_scatter
 from .scales import constant_value, is_constant, largest, shown_values
 from .names import YES_OR_NO, amount, label, number, plain, result_in_words, symbol
 from .style import caption_below, legend_above, new_figure, set_axis
@@ -209,11 +210,12 @@ def curve_panels(members, drawn, caption):
         if all(is_one_value(members, part) for part in parts):
             caption += [constant_note([member.output for member in members], *part) for part in parts]
             continue
-        together = len(members) == 1 or group in TOGETHER[:2]
+        draw = word_scatter if len(members) == 1 and output.is_cloud and "impact_word" in output else curves
+        together = draw == curves and (len(members) == 1 or group in TOGETHER[:2])
         varying = [part for part in parts if not is_one_value(members, part)]
         alone = [[(name, part, component_name(output, name, part))] for name, part, _ in varying]
         for shown in [parts] if together else alone:
-            panels.append(lambda figure, axes, shown=shown: curves(members, shown, axes))
+            panels.append(lambda figure, axes, shown=shown, draw=draw: draw(members, shown, axes))
     if "impact_count" in output and drawn("impact_count"):
         panels.append(lambda figure, axes: impact_diagram(members, axes))
     if "attractor" in output and drawn("attractor") and len(members) == 1 and has_shares(output):

@@ -13,6 +13,7 @@ from .written import finite, limits
 FORMATS = ("pdf", "png", "svg")
 USAGE = """%(prog)s [-o DIR] [--format svg|png|pdf...] [--only NAME,...]
                [--along AXIS] [--over AXIS] [--at AXIS=VALUE,...]
+               [--scatter KEY]
                [--size WxH] [--xlim A,B] [--ylim A,B] [--log x|y|xy]
                [--backbone] [--title TEXT] FILE.h5..."""
 SUMMARY = "draw outputs of clatter"
@@ -51,6 +52,9 @@ def options_parser():
         metavar="AXIS=VALUE,...",
         help="the value of an axis that is nearest; several, here or in further --at of that axis, are a curve each. "
         "Values may have units: 'gap=1 mm,2 mm'",
+    )
+    add(
+        "--scatter", default="", metavar="KEY", help="each point as a dot over this key that is swept, coloured by word"
     )
     add("--size", type=size, metavar="WxH", help="of the picture in inches, or with cm at the end")
     add(

@@ -49,6 +49,8 @@ def branches_together(options):
     """All branches, or curves, of the files in one picture, with the results of sweeps behind them."""
     outputs = [Output(path) for path in options.files]
     branches = [output for output in outputs if output.is_branch]
+    if options.scatter:
+        raise ChoiceProblem("--scatter: branches are curves; a sweep has points that can be scattered")
     if len({output.is_si for output in outputs}) > 1:
         raise ChoiceProblem(
             "[scene] and [machine] in one picture: their units differ; draw each in a picture of its own"
@@ -70,7 +72,7 @@ def shared_members(options):
         output = Output(path)
         if output.is_accuracy or output.figure:
             return None
-        members = members_of(output, options.along, options.over, options.at)
+        members = members_of(output, options.along, options.over, options.at, options.scatter)
         if len(members) > 1 or len(members[0].output.axes) != 1:
             return None
         parts.append(members[0].output)
@@ -80,10 +82,10 @@ def shared_members(options):
 def single_figure(output, options):
     if output.is_accuracy:
         return with_room(lambda size: accuracy_figure(output, options.title, size), options)
-    chosen = options.only or options.along or options.over or options.at
+    chosen = options.only or options.along or options.over or options.at or options.scatter
     paper = None if chosen else paper_figure(output)
     if paper is None:
-        return figure_of(members_of(output, options.along, options.over, options.at), options)
+        return figure_of(members_of(output, options.along, options.over, options.at, options.scatter), options)
 
     def draw():
         figure = paper(output)
