@@ -17,8 +17,8 @@ inline constexpr std::array<double, 5> told_shares{0.05, 0.25, 0.5, 0.75, 0.95};
 struct Quantiles {
   std::string result;  ///< or its component, "v_before[-1]"
   std::string units;
-  std::string per;  ///< "per forcing period", if the file has totals over another time; else empty
-  std::size_t points;                               ///< that have a value: failed points and NaN don't count
+  std::string per;     ///< "per forcing period", if the file has totals over another time; else empty
+  std::size_t points;  ///< that have a value: failed points and NaN don't count
   std::array<double, told_shares.size()> values{};  ///< in the order of `told_shares`
 };
 
