@@ -89,8 +89,8 @@ class Sizes(Pictures):
     def test_python_names_its_own_argument(self):
         import clatter
 
-        with self.assertRaisesRegex(clatter.ClatterError, r"^size 4x2 .*smallest of this shape that fits is size "):
-            clatter.plot(self.folder / "hysteresis.h5", size=(4, 2))
+        with self.assertRaisesRegex(clatter.ClatterError, r"^size 3x1.5 .*smallest of this shape that fits is size "):
+            clatter.plot(self.folder / "hysteresis.h5", size=(3, 1.5))
 
 
 if __name__ == "__main__":
