@@ -76,6 +76,8 @@ int run_branch(const Arguments& arguments) {
   branches::Branches found;
   try {
     found = settings.across ? branches::follow_curves(start, settings) : branches::follow_branches(start, settings);
+  } catch (const branches::SettingError& error) {
+    throw UsageError(storage::printable(file) + ": " + error.what());
   } catch (const branches::StartError& error) {
     std::cerr << storage::printable(file) << ": " << error.what() << '\n';
     return points_failed;

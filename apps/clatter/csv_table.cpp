@@ -134,9 +134,8 @@ std::vector<CsvTable::Column> CsvTable::columns_of(const std::string& name, cons
       columns.push_back({full, &variable, meanings_of(variable), along.length, part});
   }
   if (columns.empty())
-    throw ChoiceError("--only: " + config::in_quotes(choice_.only.front()) + " is no component; there are " + name +
-                      '[' + component_name(dataset, along.name, 0) + "] to " + name + '[' +
-                      component_name(dataset, along.name, along.length - 1) + ']');
+    throw ChoiceError("--only: " + config::in_quotes(choice_.only.front()) + " is no component; there are " +
+                      component_names(dataset, name, along));
   return columns;
 }
 

@@ -152,8 +152,7 @@ std::vector<bool> Extremes::wanted_parts(const results::Dataset& dataset) const 
                       config::in_quotes(result_->name) +
                       (parts_.size() != 1 || wanted.empty()
                            ? ", which has one value for each point"
-                           : "; there are " + result_->name + '[' + component_name(dataset, own, 0) + "] to " +
-                                 result_->name + '[' + component_name(dataset, own, wanted.size() - 1) + ']'));
+                           : "; there are " + component_names(dataset, result_->name, parts_.back())));
   return wanted;
 }
 

@@ -98,6 +98,16 @@ std::string component_name(const results::Dataset& dataset, const std::string& d
   return text;
 }
 
+std::string component_names(const results::Dataset& dataset, const std::string& result,
+                            const results::NamedLength& along) {
+  constexpr std::size_t most = 4;
+  const auto name = [&](std::size_t part) { return result + '[' + component_name(dataset, along.name, part) + ']'; };
+  if (along.length == 0) return "none";
+  std::string text;
+  for (std::size_t part = 0; part < std::min(along.length, most); ++part) text += (part == 0 ? "" : ", ") + name(part);
+  return along.length <= most ? text : text + ", ... " + name(along.length - 1);
+}
+
 std::size_t points_of(const std::vector<results::NamedLength>& rows) {
   std::size_t points = 1;
   for (const results::NamedLength& dimension : rows) points *= dimension.length;
@@ -125,10 +135,13 @@ std::vector<bool> indexes_at(const Place& place, const results::Variable& axis, 
   if (std::ranges::find(here, true) != here.end()) return here;
   std::string asked, near;
   append_number(asked, wanted);
-  std::ranges::sort(values, {}, [&](double value) { return std::abs(value - wanted); });
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  std::ranges::stable_sort(values, {}, [&](double value) { return std::abs(value - wanted); });
   for (std::size_t i = 0; i < std::min<std::size_t>(2, values.size()); ++i)
     append_number(near += i == 0 ? "" : " and ", values[i]);
-  throw ChoiceError("--where " + axis.name + '=' + asked + ": the axis has no such value; the nearest are " + near);
+  throw ChoiceError("--where " + axis.name + '=' + asked + ": the axis has no such value; " +
+                    (values.size() > 1 ? "the nearest are " : "it has only ") + near);
 }
 
 }  // namespace clatter::app

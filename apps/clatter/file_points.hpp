@@ -71,6 +71,10 @@ struct ComponentName {
 [[nodiscard]] std::string component_name(const results::Dataset& dataset, const std::string& dimension,
                                          std::size_t part);
 
+/// The components of a result, for a message: "v_before[-1], v_before[1]".
+[[nodiscard]] std::string component_names(const results::Dataset& dataset, const std::string& result,
+                                          const results::NamedLength& along);
+
 /// The number of combinations of indexes.
 [[nodiscard]] std::size_t points_of(const std::vector<results::NamedLength>& rows);
 

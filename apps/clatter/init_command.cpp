@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "config/config.hpp"
 #include "config/suggestion.hpp"
 #include "config/wrapped.hpp"
 #include "models.hpp"
@@ -51,6 +52,14 @@ const Model& model_named(std::string_view name) {
                                  : "; did you mean '" + std::string(near) + "'?"));
 }
 
+/// The command that a configuration is made for: its text names `clatter accuracy`, or it says what to follow and
+/// sweeps nothing.
+std::string_view command_of(const Model& model) {
+  if (model.text.find("clatter accuracy") != std::string_view::npos) return "accuracy";
+  const config::Config config = config::parse_config(std::string(model.text), std::string(model.name));
+  return config.branch && config.sweep.dimensions.empty() ? "branch" : "run";
+}
+
 bool is_there(const fs::path& path) {
   std::error_code error;
   return fs::symlink_status(path, error).type() != fs::file_type::not_found;
@@ -88,7 +97,8 @@ int write_model(const Arguments& arguments) {
   const auto refuse = [&] { refuse_existing(path); };
   refuse();
   storage::write_atomically(path, model.text, {.before_rename = refuse});
-  std::cerr << storage::printable(path + ": written; change it, and run it by: clatter run " + path) << '\n';
+  const std::string command = "clatter " + std::string(command_of(model)) + ' ' + path;
+  std::cerr << storage::printable(path + ": written; change it, and run it by: " + command) << '\n';
   return done;
 }
 

@@ -97,6 +97,11 @@ def _in_words_of_python():
 
 
 def _paths(files):
+    if hasattr(files, "data_vars"):  # an xarray.Dataset, whose items are the names of its variables
+        raise TypeError(
+            "a dataset in memory has no picture; expected the path of an output, or a list of them, as "
+            'clatter.run(..., output="a.h5") keeps it'
+        )
     files = [files] if isinstance(files, (str, os.PathLike)) else files
     try:
         paths = [os.fspath(file) for file in files]

@@ -62,10 +62,10 @@ class CurveFollower {
 
   Branches run() {
     if (settings_.along.role() == Role::shaking && settings_.across->role() == Role::shaking)
-      throw StartError("stops and base can't be shaken at once; expected another branch.across");
+      throw SettingError("stops and base can't be shaken at once; expected another branch.across");
     const bool is_level = settings_.along.role() == Role::friction || settings_.across->role() == Role::friction;
     if (has_friction(problem_.friction) || is_level)
-      throw StartError(
+      throw SettingError(
           "no curve of special points is followed under dry friction; leave out branch.across and branch.curve, and "
           "follow branches at several values of " +
           std::string(settings_.across->key()));

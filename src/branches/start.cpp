@@ -150,13 +150,13 @@ void require_soft_stop(const FollowedScene& scene, Parameter parameter, const st
   const auto soft = [&](Side side) { return is_soft(scene.stops, side); };
   const bool is_of_soft = parameter.role() == Role::softness || parameter.role() == Role::stop_damping;
   if (is_of_soft && !of_any(soft))
-    throw StartError(asked + " is of a soft stop, and this one is rigid; give " +
-                     (scene.given.is_si ? "machine." : "scene.") + with_side("stop_stiffness", parameter.side()));
+    throw SettingError(asked + " is of a soft stop, and this one is rigid; give " +
+                       (scene.given.is_si ? "machine." : "scene.") + with_side("stop_stiffness", parameter.side()));
   if (parameter.role() == Role::restitution && !of_any([&](Side side) { return !soft(side); }))
-    throw StartError(asked + " has no effect on a soft stop; take stop_damping or stop_R");
+    throw SettingError(asked + " has no effect on a soft stop; take stop_damping or stop_R");
 }
 
-/// Throws StartError if a parameter changes both stops, which differ.
+/// Throws SettingError if a parameter changes both stops, which differ.
 void require_equal_stops(const FollowedScene& scene, Parameter parameter, const std::string& asked) {
   if (!parameter.is_of_both()) return;
   GivenScene given = scene.given, same = given;
@@ -164,36 +164,36 @@ void require_equal_stops(const FollowedScene& scene, Parameter parameter, const 
   const auto& row = parameter.row();
   if (row.place(same) == row.place(given) && row.place_of_upper(same) == row.place_of_upper(given)) return;
   if (parameter.role() == Role::position)
-    throw StartError(asked + " moves both stops, which aren't symmetric; take stop_lower or stop_upper");
+    throw SettingError(asked + " moves both stops, which aren't symmetric; take stop_lower or stop_upper");
   const std::string key(parameter.key());
-  throw StartError(asked + " changes both stops, which differ; take " + key + "_lower or " + key + "_upper");
+  throw SettingError(asked + " changes both stops, which differ; take " + key + "_lower or " + key + "_upper");
 }
 
-/// Throws StartError if a level of dry friction can't be followed: without friction the motion at the start has no
+/// Throws SettingError if a level of dry friction can't be followed: without friction the motion at the start has no
 /// halts, and the static level is no less than the kinetic one.
 void require_levels_of_friction(const FollowedScene& scene, Parameter parameter, const std::array<double, 2>& range,
                                 const std::string& interval) {
   if (parameter.role() != Role::friction) return;
   if (!has_friction(scene.friction))
-    throw StartError("there is no dry friction at the start, so the motion there has none of its halts; give " +
-                     key_in_section(scene, parameter) + " a value above 0, within " + interval);
+    throw SettingError("there is no dry friction at the start, so the motion there has none of its halts; give " +
+                       key_in_section(scene, parameter) + " a value above 0, within " + interval);
   const Friction& given = scene.given.friction;
   if (parameter == Parameter("friction") && given.static_level != 0 && range[1] > given.static_level)
-    throw StartError(interval +
-                     " reaches friction_static; end it there, or give no friction_static: it is then equal "
-                     "to friction");
+    throw SettingError(interval +
+                       " reaches friction_static; end it there, or give no friction_static: it is then equal "
+                       "to friction");
   if (parameter == Parameter("friction_static") && range[0] < given.kinetic)
-    throw StartError(interval + " reaches below friction; begin it there");
+    throw SettingError(interval + " reaches below friction; begin it there");
 }
 
-/// Throws StartError if a branch along the stiffness is to begin without a spring: the equilibrium, from which the
+/// Throws SettingError if a branch along the stiffness is to begin without a spring: the equilibrium, from which the
 /// places on a branch count, goes to infinity there.
 void require_spring(const FollowedScene& scene, Parameter parameter) {
   const auto& k = numbers_along(scene, parameter).oscillator.stiffness;
   if (k == 0 && !k.is_constant())
-    throw StartError("places on a branch count from the equilibrium of the spring, and along " +
-                     std::string(parameter.key()) + " that comes from infinity at 0; begin at another " +
-                     key_in_section(scene, parameter));
+    throw SettingError("places on a branch count from the equilibrium of the spring, and along " +
+                       std::string(parameter.key()) + " that comes from infinity at 0; begin at another " +
+                       key_in_section(scene, parameter));
 }
 
 }  // namespace
@@ -209,25 +209,25 @@ void require_start_in_range(const FollowedScene& scene, Parameter parameter, con
     require_equal_stops(scene, parameter, asked), require_soft_stop(scene, parameter, asked);
   const double at = value_of(scene, parameter), width = range[1] - range[0];
   if (!std::isfinite(at))
-    throw StartError((parameter.role() == Role::position ? "there is no stop or wall to move by branch." + key
-                                                         : asked + " has no finite value at the start") +
-                     "; give " + key_in_section(scene, parameter));
-  if (key == "along" && !std::isfinite(width)) throw StartError(interval + " has no end; give two finite numbers");
+    throw SettingError((parameter.role() == Role::position ? "there is no stop or wall to move by branch." + key
+                                                           : asked + " has no finite value at the start") +
+                       "; give " + key_in_section(scene, parameter));
+  if (key == "along" && !std::isfinite(width)) throw SettingError(interval + " has no end; give two finite numbers");
   if (!(at >= range[0] && at <= range[1]))
-    throw StartError("the start lies outside " + interval + "; give " + key_in_section(scene, parameter) +
-                     " a value within it");
+    throw SettingError("the start lies outside " + interval + "; give " + key_in_section(scene, parameter) +
+                       " a value within it");
   const bool is_place = parameter.role() == Role::position && !parameter.is_of_both() && !parameter.is_loose();
   if (is_place && parameter.side() == Side::lower && range[1] >= stops.upper && std::isfinite(range[1]))
-    throw StartError(interval + " reaches the upper stop; end it below stop_upper");
+    throw SettingError(interval + " reaches the upper stop; end it below stop_upper");
   if (is_place && parameter.side() == Side::upper && range[0] <= stops.lower && std::isfinite(range[0]))
-    throw StartError(interval + " reaches the lower stop; begin it above stop_lower");
+    throw SettingError(interval + " reaches the lower stop; begin it above stop_lower");
   require_spring(scene, parameter);
   require_levels_of_friction(scene, parameter, range, interval);
   GivenScene shaken = scene.given;
   set(shaken, parameter, 1.0);
   if (shaken.shaking.stops != 0 && shaken.shaking.base != 0)
-    throw StartError("stops and base can't be shaken at once; " + asked + " needs " +
-                     (parameter == Parameter("stop_amplitude") ? "base_amplitude" : "stop_amplitude") + " = 0");
+    throw SettingError("stops and base can't be shaken at once; " + asked + " needs " +
+                       (parameter == Parameter("stop_amplitude") ? "base_amplitude" : "stop_amplitude") + " = 0");
 }
 
 double speed_scale(const FollowedScene& scene, const Orbit& orbit) {
@@ -270,8 +270,8 @@ Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric
   const bool is_si = given.units.is_si;
   require_friction_to_follow(problem);
   if (problem.oscillator.forcing == 0)
-    throw StartError(std::string("a branch needs a force, whose periods it counts: set ") +
-                     (is_si ? "machine.force" : "scene.f"));
+    throw SettingError(std::string("a branch needs a force, whose periods it counts: set ") +
+                       (is_si ? "machine.force" : "scene.f"));
   const MotionStart near = period == 0 ? settled(problem) : near_start(problem, period);
   if (has_loose_mass(problem.loose)) return start_in_housing(start, problem, near, symmetric);
   if (has_friction(problem.friction)) return slipping_start(problem, near, symmetric);

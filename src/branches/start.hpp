@@ -19,8 +19,13 @@ struct StartError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws StartError if a scene's parameter can't be followed over a range from its present value on. `key` says which
-/// parameter of [branch] it is: "along" or "across".
+/// A start that its configuration rules out, before anything runs: it asks for what the scene doesn't have.
+struct SettingError : StartError {
+  using StartError::StartError;
+};
+
+/// Throws SettingError if a scene's parameter can't be followed over a range from its present value on. `key` says
+/// which parameter of [branch] it is: "along" or "across".
 void require_start_in_range(const FollowedScene& scene, Parameter parameter, const std::array<double, 2>& range,
                             const std::string& key);
 

@@ -25,12 +25,12 @@ void add_main_mass(const FollowedScene& scene, const attractors::SectionState& f
 void require_walls_in_range(const FollowedScene& scene, Parameter parameter, const std::array<double, 2>& range) {
   const LooseMass& walls = scene.given.loose;
   if (parameter.is_of_both() && walls.lower != -walls.upper)
-    throw StartError(
+    throw SettingError(
         "branch.along = loose_gap moves both walls, which aren't symmetric; take loose_lower or loose_upper");
   if (parameter == Parameter("loose_lower") && range[1] >= walls.upper)
-    throw StartError("branch.range reaches the upper wall; end it below loose_upper");
+    throw SettingError("branch.range reaches the upper wall; end it below loose_upper");
   if (parameter == Parameter("loose_upper") && range[0] <= walls.lower)
-    throw StartError("branch.range reaches the lower wall; begin it above loose_lower");
+    throw SettingError("branch.range reaches the lower wall; begin it above loose_lower");
 }
 
 Orbit start_in_housing(const FollowedScene& scene, const point::Problem& problem, const MotionStart& near,

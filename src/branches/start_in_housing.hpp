@@ -4,7 +4,7 @@
 
 namespace clatter::branches {
 
-/// Throws StartError if the walls of a loose mass would meet over a range of a parameter, or it moves both, which
+/// Throws SettingError if the walls of a loose mass would meet over a range of a parameter, or it moves both, which
 /// differ.
 void require_walls_in_range(const FollowedScene& scene, Parameter parameter, const std::array<double, 2>& range);
 

@@ -158,11 +158,8 @@ bool change_the_same(Parameter one, Parameter other) {
 void add_second_parameter(const Settings& settings, branches::BranchSettings& branch) {
   const Setting *const across = settings.find("branch", "across"), *const curve = settings.find("branch", "curve"),
                        *const range = settings.find("branch", "across_range");
-  const std::string example = settings.is_si() ? "across = \"gap\"" : "across = \"xs\"";
   for (const Setting* const of_it : {curve, range})
-    if (across == nullptr && of_it != nullptr)
-      fail(of_it->key_location,
-           in_quotes(of_it->key->name) + " without 'across'; add the second parameter, e.g. " + example);
+    if (across == nullptr && of_it != nullptr) refuse_missing_across(settings, of_it->key->name, of_it->key_location);
   if (across == nullptr) return;
   if (curve == nullptr)
     fail(across->location, "'across' without 'curve'; add the special points that are followed, e.g. curve = \"fold\"");
@@ -198,10 +195,7 @@ std::optional<branches::BranchSettings> branch_settings_of(const Settings& setti
   };
   if (along == nullptr && std::ranges::none_of(settings.values, asks_for_branch)) return std::nullopt;
   const bool is_si = settings.is_si();
-  if (along == nullptr)
-    fail(settings.location_of_section("branch"), "[branch] without 'along'; add a key of [" +
-                                                     std::string(settings.scene_section) + "], e.g. along = \"" +
-                                                     (is_si ? "frequency" : "nu") + '"');
+  if (along == nullptr) refuse_missing_along(settings);
   if (range == nullptr)
     fail(settings.location_of_section("branch"),
          std::string("[branch] without 'range'; add the values to stop at, e.g. range = ") +

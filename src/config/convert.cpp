@@ -206,15 +206,15 @@ AxisValues unchecked_axis(const Key& key, const ParsedValue& written) {
 
 }  // namespace
 
+bool is_measure(const ParsedValue& written) {
+  const auto* const text = std::get_if<std::string>(&written.data);
+  if (const auto* const list = std::get_if<ParsedList>(&written.data)) return std::ranges::any_of(*list, is_measure);
+  return text != nullptr && text->find_first_of("0123456789") != std::string::npos && has_unit(*text);
+}
+
 Quantity quantity_of(const Key& key, const ParsedValue& written) {
   if (key.with_unit == Quantity::number) return key.quantity;
-  const auto is_measure = [](const ParsedValue& value) {
-    const auto* const text = std::get_if<std::string>(&value.data);
-    return text != nullptr && has_unit(*text);
-  };
-  const auto* const list = std::get_if<ParsedList>(&written.data);
-  const bool has = list != nullptr ? std::ranges::any_of(*list, is_measure) : is_measure(written);
-  return has ? key.with_unit : key.quantity;
+  return is_measure(written) ? key.with_unit : key.quantity;
 }
 
 Value convert(const Key& key, const ParsedValue& written, bool is_si) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "config/suggestion.hpp"
+#include "config/unknown_key.hpp"
 
 namespace clatter::config {
 namespace {
@@ -15,21 +16,6 @@ void check_section(const std::string& name, const SourceLocation& location) {
   const std::string near(nearest(name, known));
   fail(location, "unknown section [" + name + "]" +
                      (near.empty() ? "; expected one of " + joined(known) : "; did you mean [" + near + "]?"));
-}
-
-std::string shown(std::string_view section) {
-  return section.empty() ? "before the first section" : "in [" + std::string(section) + "]";
-}
-
-/// Says where a key of a wrong section belongs, for a message.
-std::string home_of(std::string_view name) {
-  for (const std::string_view section : sections()) {
-    if (section == name) return "; begin the section with [" + std::string(name) + "]";
-  }
-  std::string homes;
-  for (const Key& key : keys())
-    if (key.name == name) homes += (homes.empty() ? "; it belongs " : ", or ") + shown(key.section);
-  return homes;
 }
 
 /// Refuses [[sweep]] in place of [sweep].
@@ -56,14 +42,8 @@ const Key& key_of_section(const Key& key, const ParsedEntry& entry, std::string_
 
 const Key& known_key(const ParsedEntry& entry, std::string_view scene_section) {
   if (const Key* const key = find_key(entry.section, entry.key)) return key_of_section(*key, entry, scene_section);
-  const std::vector<std::string_view> names = key_names(entry.section);
-  const std::string counterpart(counterpart_of(entry.key));
-  if (describes_scene(entry.section) && !counterpart.empty())
-    fail(entry.location, "unknown key " + in_quotes(entry.key) + ' ' + shown(entry.section) + "; there it is " +
-                             in_quotes(counterpart));
-  std::string way_out = nearest(entry.key, names).empty() ? home_of(entry.key) : "";
-  if (way_out.empty()) way_out = suggestion(entry.key, names, "; expected one of ");
-  fail(entry.location, "unknown key " + in_quotes(entry.key) + ' ' + shown(entry.section) + way_out);
+  fail(entry.location, "unknown key " + in_quotes(entry.key) + ' ' + shown(entry.section) +
+                           way_out_of_unknown_key(entry, scene_section));
 }
 
 const ParsedEntry* first_of(const ParsedConfig& parsed, std::string_view section) {
@@ -102,6 +82,18 @@ const Key* followed_key(const ParsedConfig& parsed, std::string_view chosen_by, 
                                      (counterpart.empty() ? "expected one that is" : "take " + in_quotes(counterpart)));
   }
   return nullptr;
+}
+
+/// Refuses a range in a unit without the parameter that it is of, which alone has one.
+void check_ranges(const ParsedConfig& parsed, const Settings& settings) {
+  const auto find = [&](std::string_view name) {
+    const auto is_it = [&](const ParsedEntry& entry) { return entry.section == "branch" && entry.key == name; };
+    return std::ranges::find_if(parsed.entries, is_it);
+  };
+  const auto none = parsed.entries.end(), range = find("range"), across = find("across_range");
+  if (range != none && is_measure(range->value) && find("along") == none) refuse_missing_along(settings);
+  if (across != none && is_measure(across->value) && find("across") == none)
+    refuse_missing_across(settings, across->key, across->location);
 }
 
 /// A key of [branch] that holds values of another key has its quantity, so that they may have its units.
@@ -190,12 +182,24 @@ std::string_view counterpart_of(std::string_view name) {
   return parameter ? parameter->row().counterpart : std::string_view{};
 }
 
+void refuse_missing_along(const Settings& settings) {
+  fail(settings.location_of_section("branch"), "[branch] without 'along'; add a key of [" +
+                                                   std::string(settings.scene_section) + "], e.g. along = \"" +
+                                                   (settings.is_si() ? "frequency" : "nu") + '"');
+}
+
+void refuse_missing_across(const Settings& settings, std::string_view key, const SourceLocation& location) {
+  fail(location, in_quotes(key) + " without 'across'; add the second parameter, e.g. across = \"" +
+                     (settings.is_si() ? "gap" : "xs") + '"');
+}
+
 Settings check_keys(ParsedConfig parsed) {
   const std::string_view scene_section = section_of_scene(parsed);
   Settings settings{std::move(parsed.file), std::move(parsed.sections), {}, {}, {}, scene_section};
   for (const ParsedSection& section : settings.sections) check_section(section.name, section.location);
   const Key *const along = followed_key(parsed, "along", scene_section), *const across = followed_key(parsed, "across",
                                                                                                       scene_section);
+  check_ranges(parsed, settings);
   for (const ParsedEntry& entry : parsed.entries) {
     check_section(entry.section, entry.location);
     check_brackets(entry);

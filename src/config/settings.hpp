@@ -82,6 +82,9 @@ struct Settings {
 /// The key that says the same in the other one of [scene] and [machine]; empty if nothing does.
 [[nodiscard]] std::string_view counterpart_of(std::string_view name);
 
+/// Whether a written value, or one of a list, is a number with a unit.
+[[nodiscard]] bool is_measure(const ParsedValue& written);
+
 /// The quantity of a value as it was written: that which the key has with a unit if there is one.
 [[nodiscard]] Quantity quantity_of(const Key& key, const ParsedValue& written);
 
@@ -95,5 +98,9 @@ struct Settings {
 /// ConfigError.
 [[nodiscard]] Value convert(const Key& key, const ParsedValue& written, bool is_si = false);
 [[nodiscard]] AxisValues convert_axis(const Key& key, const ParsedValue& written);
+
+/// Refuses [branch] without the parameter along which a motion is followed, or a key of it without the second one.
+[[noreturn]] void refuse_missing_along(const Settings& settings);
+[[noreturn]] void refuse_missing_across(const Settings& settings, std::string_view key, const SourceLocation& location);
 
 }  // namespace clatter::config

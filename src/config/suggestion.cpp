@@ -56,8 +56,10 @@ bool joins_digits(std::string_view text, std::size_t comma) {
   return comma > 0 && comma + 1 < text.size() && is_digit(text[comma - 1]) && is_digit(text[comma + 1]);
 }
 
-/// Whether exactly three digits follow each comma.
+/// Whether exactly three digits follow each comma, and one to three, no leading 0, come before the first.
 bool has_thousands(std::string_view text) {
+  const std::size_t first = std::min(text.find_first_not_of("+-"), text.size()), before = text.find(',') - first;
+  if (before < 1 || before > 3 || text[first] == '0' || !is_digit(text[first])) return false;
   for (std::size_t comma = text.find(','); comma != std::string_view::npos; comma = text.find(',', comma + 1)) {
     const std::size_t end = std::min(text.find(',', comma + 1), text.size());
     if (end - comma != 4 || !std::all_of(text.begin() + static_cast<std::ptrdiff_t>(comma) + 1,
@@ -104,13 +106,13 @@ std::string comma_hint(std::string_view text, Kind kind) {
   const std::size_t comma = number.find(',');
   if (comma == std::string::npos || number.find_first_of(".[(\t") != std::string::npos) return {};
   if (!unit.empty() && !parse_unit(without_blanks(unit))) return {};
-  if (kind == Kind::integer && has_thousands(number)) {
-    std::erase(number, ',');
-    return "; write it without commas: " + number;
-  }
-  if (!joins_digits(number, comma) || number.find(',', comma + 1) != std::string::npos) return {};
+  std::string without = number;
+  std::erase(without, ',');
+  if (kind == Kind::integer && has_thousands(number)) return "; write it without commas: " + without;
+  const std::string thousands = has_thousands(number) ? "; thousands? write " + without.append(unit) : "";
+  if (!joins_digits(number, comma) || number.find(',', comma + 1) != std::string::npos) return thousands;
   number[comma] = '.';
-  return "; a decimal comma? write " + number.append(unit);
+  return "; a decimal comma? write " + number.append(unit) + thousands;
 }
 
 std::string comma_hint_within(std::string_view text) {

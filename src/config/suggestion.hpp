@@ -21,8 +21,8 @@ namespace clatter::config {
 /// "h, f, nu"
 [[nodiscard]] std::string joined(std::span<const std::string_view> names);
 
-/// "; a decimal comma? write 0.1" if a text would be a number without its comma, such as 0,1; for whole numbers ";
-/// write it without commas: 10000"; else nothing.
+/// "; a decimal comma? write 0.1" if a text would be a number without its comma, such as 0,1; of 2,000 also ";
+/// thousands? write 2000"; for whole numbers "; write it without commas: 10000"; else nothing.
 [[nodiscard]] std::string comma_hint(std::string_view text, Kind kind = Kind::number);
 
 /// The same for the first such number in a text, as in linspace(0,5, 1,5, 501).

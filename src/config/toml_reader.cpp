@@ -8,6 +8,7 @@
 
 #include "config/config_error.hpp"
 #include "config/keys.hpp"
+#include "config/look_alike.hpp"
 #include "config/parsed_config.hpp"
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
@@ -75,6 +76,14 @@ class Context {
   bool in_value_ = false;
 };
 
+/// Refuses a character outside ASCII where TOML takes none: one that looks like another, or a text without quotes.
+[[noreturn]] void refuse_not_ascii(const std::string& file, std::string_view text, std::size_t at) {
+  const std::string_view character = text.substr(at, storage::utf8_length(text.substr(at)));
+  const std::string otherwise =
+      "a character outside ASCII, " + name_of_character(character) + "; put the text in quotes";
+  fail(location_of(file, text, at), look_alike_hint(character).value_or(otherwise));
+}
+
 /// Throws ConfigError at text that would crash toml++ 3.3: non-ASCII characters outside comments and quotes, and keys
 /// of very many parts.
 void check_toml(const std::string& file, std::string_view text) {
@@ -89,7 +98,7 @@ void check_toml(const std::string& file, std::string_view text) {
     } else if ((character == '"' || character == '\'') && !in_word) {
       at = skip_string(file, text, at);
     } else {
-      if (!is_ascii(character)) fail(location_of(file, text, at), "a character outside ASCII; put the text in quotes");
+      if (!is_ascii(character)) refuse_not_ascii(file, text, at);
       dots = ends_key(character) ? 0 : dots + (character == '.');
       if (dots > max_dots) fail(location_of(file, text, at), "more than 256 dots in a key; a key is SECTION.NAME");
       if (!in_word) {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "config/axis_functions.hpp"
+#include "config/look_alike.hpp"
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
 #include "config/unit.hpp"
@@ -23,7 +24,10 @@ constexpr std::string_view blanks = " \t\r\n";
 /// Reads a value from its first character to its last by recursive descent.
 class Parser {
  public:
-  explicit Parser(const SourceText& source) : source_(source) { skip_blanks(); }
+  explicit Parser(const SourceText& source) : source_(source) {
+    check_look_alikes();
+    skip_blanks();
+  }
 
   [[nodiscard]] Measure whole_number() {
     const Measure measured = measure();
@@ -49,6 +53,16 @@ class Parser {
   [[nodiscard]] bool at_end() const { return at_ == source_.text.size(); }
   [[nodiscard]] bool peek(char character) const { return !at_end() && source_.text[at_] == character; }
   [[nodiscard]] std::string_view rest() const { return source_.text.substr(at_); }
+
+  /// Refuses what looks like a minus, a quote or a blank, none of which a number or a unit has.
+  void check_look_alikes() const {
+    for (std::size_t at = 0; at < source_.text.size();) {
+      const std::size_t length = std::max<std::size_t>(storage::utf8_length(source_.text.substr(at)), 1);
+      const std::string_view character = source_.text.substr(at, length);
+      if (const auto hint = length > 1 ? look_alike_hint(character) : std::nullopt) fail_at(at, *hint);
+      at += length;
+    }
+  }
 
   void skip_blanks() { at_ = std::min(source_.text.find_first_not_of(blanks, at_), source_.text.size()); }
 

@@ -233,26 +233,30 @@ class Branch(BranchRuns):
             self.assertFalse((self.directory / "a.branch.h5").exists())
 
     def test_starts_that_cannot_be_followed_say_what_to_set(self):
-        for text, part in (
-            (SCENE.replace("f = -1.0", "f = 0"), "set scene.f"),
-            (SCENE.replace("nu = 1.1", "nu = 0.9") + "[time]\nmax_periods = 60\n", "settles on no periodic motion"),
+        for code, text, part in (
+            (2, SCENE.replace("f = -1.0", "f = 0"), "set scene.f"),
+            (1, SCENE.replace("nu = 1.1", "nu = 0.9") + "[time]\nmax_periods = 60\n", "settles on no periodic motion"),
         ):
             result = self.branch(text + BRANCH)
-            self.assertEqual(result.returncode, 1)
+            self.assertEqual(result.returncode, code)
             self.assertIn(part, result.stderr)
             self.assertFalse((self.directory / "a.branch.h5").exists())
 
     def test_curves_that_have_no_branch_to_begin_on_say_why(self):
         uneven = SCENE.replace("xs = -3", "stop_lower = -3\nstop_upper = 2.9")
         spent = "the branch has no fold up to its end at nu = "
-        for text, part in (
-            (uneven + WIDE + 'across = "xs"\ncurve = "fold"\n', "moves both stops, which aren't symmetric"),
-            (SCENE.replace("xs = -3", "stop_upper = 3") + WIDE + 'across = "stop_lower"\ncurve = "fold"\n', "no stop"),
-            (SCENE + WIDE + 'across = "xs"\ncurve = "fold"\nmax_points = 30\n', spent),
-            (SCENE + WIDE + 'across = "xs"\nacross_range = [4, 5]\ncurve = "fold"\n', "outside branch.across_range"),
+        for code, text, part in (
+            (2, uneven + WIDE + 'across = "xs"\ncurve = "fold"\n', "moves both stops, which aren't symmetric"),
+            (
+                2,
+                SCENE.replace("xs = -3", "stop_upper = 3") + WIDE + 'across = "stop_lower"\ncurve = "fold"\n',
+                "no stop",
+            ),
+            (1, SCENE + WIDE + 'across = "xs"\ncurve = "fold"\nmax_points = 30\n', spent),
+            (2, SCENE + WIDE + 'across = "xs"\nacross_range = [4, 5]\ncurve = "fold"\n', "outside branch.across_range"),
         ):
             result = self.branch(text)
-            self.assertEqual(result.returncode, 1, text)
+            self.assertEqual(result.returncode, code, text)
             self.assertIn(part, result.stderr)
             self.assertFalse((self.directory / "a.branch.h5").exists())
 
@@ -298,7 +302,7 @@ class Branch(BranchRuns):
             (SCENE, '[branch]\nalong = "stop_stiffness"\nrange = [5, 90]\n', "give scene.stop_stiffness"),
         ):
             self.write("a.toml", scene + branch)
-            self.assert_refused(1, message, "branch", "a.toml")
+            self.assert_refused(2, message, "branch", "a.toml")
 
     def test_along_the_load_a_branch_begins_at_none_without_a_spring(self):
         """A load of 0 once had no derivative, since its response was left out. Loads of both signs mirror."""

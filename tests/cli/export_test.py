@@ -216,7 +216,7 @@ class Export(CommandLine):
             (2, "--only: 'x_maxx' is no column of 'a.h5'; did you mean 'x_max'?", [path, "--only", "x_maxx"]),
             (
                 2,
-                "'v_before[0]' is no component; there are v_before[-1] to v_before[1]",
+                "'v_before[0]' is no component; there are v_before[-1], v_before[1]",
                 [path, "--only", "v_before[0]"],
             ),
             (2, "--where: 'h' is no axis of 'a.h5'; its axes are nu, xs", [path, "--where", "h=1"]),

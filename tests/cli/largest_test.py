@@ -241,7 +241,7 @@ class Largest(CommandLine):
             ("nu", "--max: 'nu' in 'a.h5' is an axis; "),
             ("stop", "--max: 'stop' in 'a.h5' is an axis; "),
             ("impact_tau", "has a value for each impact, not for each point; `clatter export --impacts` prints them"),
-            ("impact_speed[0]", "is no component of 'impact_speed'; there are impact_speed[-1] to impact_speed[1]"),
+            ("impact_speed[0]", "is no component of 'impact_speed'; there are impact_speed[-1], impact_speed[1]"),
             ("x_max[0]", "'x_max[0]' is no component of 'x_max', which has one value for each point"),
         ):
             with self.subTest(name):

@@ -147,7 +147,8 @@ TEST(Machine, a_wrong_unit_is_told_with_the_one_that_was_meant) {
       {machine + "x0 = \"3 %\"\n", "5:9", "the unit '%' doesn't fit; expected a length in m"},
       {machine + "[sweep]\nx0 = \"linspace(0, 2 microns, 3)\"\n", "6:21", "unknown unit 'microns'; did you mean 'um'?"},
       {"[scene]\nxs = 1\nphase = \"3 degrees\"\n", "3:12", "unknown unit 'degrees'; did you mean 'deg'?"},
-      {"[scene]\nxs = 1\nphase = 3\u00B0\n", "3:10", "a character outside ASCII; put the text in quotes"},
+      {"[scene]\nxs = 1\nphase = 3\u00B0\n", "3:10",
+       "a character outside ASCII, '\u00B0' (U+00B0); put the text in quotes"},
       {"[scene]\nxs = 1\n[time]\nwindow = \"300 %\"\n", "4:10", "window = the text '300 %'; expected a whole number"},
   };
   expect_all("a.toml", table);

@@ -13,6 +13,14 @@ TEST(Comma, in_a_number_is_told_from_a_list) {
     EXPECT_EQ(comma_hint(list), "") << list;
 }
 
+TEST(Comma, before_three_digits_may_be_of_thousands) {
+  EXPECT_EQ(comma_hint("2,000 N/m"), "; a decimal comma? write 2.000 N/m; thousands? write 2000 N/m");
+  EXPECT_EQ(comma_hint("-12,000"), "; a decimal comma? write -12.000; thousands? write -12000");
+  EXPECT_EQ(comma_hint("1,200,000 N/m"), "; thousands? write 1200000 N/m");
+  for (const char* decimal : {"0,100", "2,00", "2,0000", "1234,000"})
+    EXPECT_EQ(comma_hint(decimal).find("thousands"), std::string::npos) << decimal;
+}
+
 TEST(Comma, between_thousands_of_a_whole_number_is_left_out) {
   EXPECT_EQ(comma_hint("10,000", Kind::integer), "; write it without commas: 10000");
   EXPECT_EQ(comma_hint("1,000,000", Kind::integer), "; write it without commas: 1000000");

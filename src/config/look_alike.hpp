@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace clatter::config {
+
+/// A character as a message names it: "'−' (U+2212)"; one that shows nothing by its number alone.
+[[nodiscard]] std::string name_of_character(std::string_view character);
+
+/// The plain character that a typeset one stands for, and what to type, for a message: "'−' (U+2212) is a typeset
+/// minus; type -". Word processors and web pages put them in place of those of a keyboard. Nothing: it is none.
+[[nodiscard]] std::optional<std::string> look_alike_hint(std::string_view character);
+
+}  // namespace clatter::config
