@@ -2,11 +2,14 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
 
 #include "config/suggestion.hpp"
+#include "config/text_file.hpp"
+#include "storage/utf8.hpp"
 
 namespace clatter::app {
 
@@ -80,7 +83,21 @@ std::string output_of(const Arguments& arguments, const std::string& ending) {
                                                                 : arguments.operands[0]);
   if (config == config::standard_input && !arguments.has("output"))
     throw UsageError("a configuration from stdin has no name to give the output; name it with -o FILE.h5");
-  return arguments.value("output").value_or(config.stem().string() + ending);
+  const std::string output = arguments.value("output").value_or(config.stem().string() + ending);
+  check_name_of_results(output);
+  return output;
+}
+
+void check_name_of_results(const std::string& output) {
+  constexpr std::string_view others[] = {".csv", ".tsv",  ".txt", ".dat", ".json", ".jsonl", ".mat",
+                                         ".npz", ".xlsx", ".ods", ".svg", ".png",  ".html",  ".pdf"};
+  const std::filesystem::path path(output);
+  const bool is_other =
+      std::ranges::any_of(others, [&](std::string_view ending) { return config::has_ending(output, ending); });
+  if (!is_other) return;
+  const std::string own = std::filesystem::path(path).replace_extension(".h5").string();
+  throw UsageError("-o " + storage::quoted_name(output) + ": results are HDF5; write -o " + storage::printable(own) +
+                   ", and then e.g. clatter export " + storage::printable(own) + " -o FILE.csv");
 }
 
 void check_not_config(const std::string& config, const std::string& output) {

@@ -109,8 +109,9 @@ Json value(const Key& key) {
     }
     case Kind::choices:
       return {{"anyOf", Json::array({{{"type", "array"}, {"items", {{"enum", key.choices}}}}, {{"type", "string"}}})}};
-    case Kind::text:
     case Kind::names:
+      return {{"anyOf", Json::array({{{"type", "array"}, {"items", {{"type", "string"}}}}, {{"type", "string"}}})}};
+    case Kind::text:
       break;
   }
   return {{"type", "string"}};

@@ -28,7 +28,13 @@ Place place(const std::string& text) {
 
 std::vector<Place> places_of(const Arguments& arguments) {
   std::vector<Place> places;
-  for (const std::string& text : arguments.values("where")) places.push_back(place(text));
+  for (const std::string& text : arguments.values("where")) {
+    places.push_back(place(text));
+    for (std::size_t i = 0; i + 1 < places.size(); ++i)
+      if (places[i].axis == places.back().axis && places[i].value.value != places.back().value.value)
+        throw UsageError("--where " + storage::excerpt(text) + " beside --where " +
+                         storage::excerpt(arguments.values("where")[i]) + "; an axis has one value at a point");
+  }
   return places;
 }
 

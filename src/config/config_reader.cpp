@@ -244,7 +244,8 @@ Config config_of(ParsedConfig parsed) {
   config.title = settings.text("", "title"), config.source = settings.text("", "source");
   config.text = config_text(settings);
   if (config.text.size() > max_config_bytes) refuse_long(settings);
-  for (const Replaced& replaced : settings.replaced) config.notes.push_back(to_string(replaced));
+  for (const Replaced& replaced : settings.replaced)
+    if (!replaced.is_surplus) config.notes.push_back(to_string(replaced));
   config.warnings = warnings_of(settings, groups);
   config.compression = static_cast<int>(settings.integer("output", "compression"));
   config.sweep = sweep_of(settings, groups);  // takes the values of the axes

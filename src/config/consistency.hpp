@@ -45,8 +45,9 @@ void check_sensitivity(const Settings& settings);
 [[nodiscard]] std::optional<std::size_t> followed_dimension(const Settings& settings, const AxisGroups& groups);
 
 /// Removes settings of the file that the command line replaces by another key or section, such as xs by stop_lower, and
-/// notes them in `replaced`. If only one half of a pair is replaced, such as one stop of xs, the other stays. Throws
-/// ConfigError if the file alone, or the command line alone, says the same in two ways.
+/// notes them in `replaced`; likewise a value beside an axis of its key. If only one half of a pair is replaced, such
+/// as one stop of xs, the other stays. Throws ConfigError if the file alone, or the command line alone, says the same
+/// in two ways.
 void let_command_line_win(Settings& settings);
 
 /// Throws ConfigError if a key is missing that others need, or if keys conflict.

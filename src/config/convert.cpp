@@ -171,6 +171,16 @@ std::string choices_of(const Key& key, const ParsedValue& written) {
   return in_order.empty() ? std::string(no_choice) : joined(in_order);
 }
 
+/// Names with commas between them, from a text or a list.
+std::string names_of(const Key& key, const ParsedValue& written) {
+  const auto* const text = std::get_if<std::string>(&written.data);
+  const bool is_list = text == nullptr || (written.untyped && without_blanks(*text).starts_with('['));
+  if (!is_list) return text_of(key, written);
+  std::string names;
+  for (const ParsedValue& word : words_of(key, written)) (names += names.empty() ? "" : ", ") += text_of(key, word);
+  return names;
+}
+
 AxisValues list_of(const Key& key, const ParsedList& list, bool is_si = false) {
   AxisValues axis;
   std::vector<Measure> measures;
@@ -232,8 +242,9 @@ Value convert(const Key& key, const ParsedValue& written, bool is_si) {
       return choice_of(key, written);
     case Kind::choices:
       return choices_of(key, written);
-    case Kind::text:
     case Kind::names:
+      return names_of(key, written);
+    case Kind::text:
       break;
   }
   return text_of(key, written);

@@ -83,21 +83,18 @@ void note(Settings& settings, Parameter parameter, const SourceLocation& by, con
 }
 
 /// Lets the command line's setting of a parameter, in the scene's section or [sweep], replace that of the other section
-/// in the file.
+/// in the file; of two in one place the axis counts, as somebody wants who turns a run into a sweep.
 void choose_section(Settings& settings, Parameter parameter) {
   const Setting* const fixed = settings.find(settings.scene_section, parameter.key());
   const auto swept = std::ranges::find(settings.axes, key_of_scene(settings, parameter), &Setting::key);
   if (fixed == nullptr || swept == settings.axes.end()) return;
   const SourceLocation in_scene = fixed->key_location, in_sweep = swept->key_location;
-  if (contradict(in_scene, in_sweep))
-    fail(later(in_scene, in_sweep) ? in_scene : in_sweep,
-         quoted_name(parameter) + " in both [" + std::string(settings.scene_section) +
-             "] and [sweep]; remove one of them (for a single value: sweep." + std::string(parameter.key()) +
-             " = VALUE)");
-  const bool by_axis = on_command_line(in_sweep);
+  const bool by_axis = contradict(in_scene, in_sweep) || on_command_line(in_sweep);
   note(settings, parameter, by_axis ? in_sweep : in_scene, by_axis ? in_scene : in_sweep);
+  if (contradict(in_scene, in_sweep)) settings.replaced.back().is_surplus = true;
   if (!by_axis) settings.replaced.back().values = swept->numbers().size();
-  remove(settings, parameter);
+  std::erase_if(by_axis ? settings.values : settings.axes,
+                [key = key_of_scene(settings, parameter)](const Setting& setting) { return setting.key == key; });
 }
 
 /// Lets a parameter of the command line replace another one of the file.

@@ -104,9 +104,20 @@ Key with_quantity(Key key, const Key* along, const Key* across) {
   return key;
 }
 
+/// Whether numbers were written without a unit, and without pi, which says that they are in rad.
+bool is_plain(const ParsedValue& written) {
+  const auto* const list = std::get_if<ParsedList>(&written.data);
+  if (list != nullptr) return std::ranges::all_of(*list, is_plain);
+  const auto* const text = std::get_if<std::string>(&written.data);
+  return text == nullptr || (!is_measure(written) && text->find("pi") == std::string::npos);
+}
+
 /// A setting with a value as written in INI.
 Setting setting_of(const Key& key, std::string_view value) {
-  return {&key, convert(key, {std::string(value), {"the table of keys"}, true, 0}), {}, {}};
+  return {.key = &key,
+          .value = convert(key, {std::string(value), {"the table of keys"}, true, 0}),
+          .key_location = {},
+          .location = {}};
 }
 
 template <typename Type>
@@ -205,12 +216,12 @@ Settings check_keys(ParsedConfig parsed) {
     check_brackets(entry);
     const Key& key = known_key(entry, scene_section);
     if (entry.section == "sweep" && describes_scene(key.section)) {
-      settings.axes.push_back(
-          {&key, convert_axis(key, entry.value), entry.location, entry.value.location, quantity_of(key, entry.value)});
+      settings.axes.push_back({&key, convert_axis(key, entry.value), entry.location, entry.value.location,
+                               quantity_of(key, entry.value), is_plain(entry.value)});
     } else {
       const Key read_as = with_quantity(key, along, across);
       settings.values.push_back({&key, convert(read_as, entry.value, settings.is_si()), entry.location,
-                                 entry.value.location, quantity_of(read_as, entry.value)});
+                                 entry.value.location, quantity_of(read_as, entry.value), is_plain(entry.value)});
     }
   }
   return settings;

@@ -25,6 +25,7 @@ struct Setting {
   SourceLocation key_location;
   SourceLocation location;               ///< of the value, or of all values
   Quantity quantity = Quantity::number;  ///< of the values of a key that has one, as they were written
+  bool is_plain = false;                 ///< written without unit and pi
 
   [[nodiscard]] bool is_axis() const { return std::holds_alternative<AxisValues>(value); }
   /// The values of a key of [scene] or [machine], one unless it is an axis.
@@ -33,12 +34,13 @@ struct Setting {
   [[nodiscard]] const SourceLocation& location_of(std::size_t index) const;
 };
 
-/// A setting of the file that one of the command line replaced.
+/// A setting that another one replaced: one of the file by one of the command line, or a value by an axis.
 struct Replaced {
   Parameter parameter;        ///< of the file's setting
   SourceLocation by, former;  ///< of the two settings
   std::string remark;         ///< ", which stays as 'stop_lower'", or empty
   std::size_t values = 0;     ///< of an axis that one value replaced; 0: of none
+  bool is_surplus = false;    ///< a value beside an axis of the same parameter, both of the file or the command line
 };
 
 /// "--set scene.stop_upper=2 in place of 'xs', fig22.toml:7:1, which stays as 'stop_lower'"

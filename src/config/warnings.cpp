@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -81,6 +82,41 @@ void warn_of_great_ratios(const Settings& settings, std::vector<Warning>& warnin
                         std::string(damping.key()) + " = " + number + " is the damping ratio, " + number +
                             " times critical; if the damping is meant, give its unit: \"" + number + " N s/m\""});
   }
+}
+
+/// The numbers that a setting holds, whatever its kind.
+std::vector<double> numbers_of(const Setting& setting) {
+  if (const auto* const interval = std::get_if<Interval>(&setting.value)) return {(*interval)[0], (*interval)[1]};
+  if (!setting.is_axis() && !std::holds_alternative<double>(setting.value)) return {};
+  return {setting.numbers().begin(), setting.numbers().end()};
+}
+
+/// Warns of an angle beyond a turn without unit, which were degrees in any drawing.
+void warn_of_great_angles(const Settings& settings, std::vector<Warning>& warnings) {
+  constexpr double turn = 2 * std::numbers::pi;
+  for (const auto* const list : {&settings.values, &settings.axes})
+    for (const Setting& setting : *list) {
+      if (setting.quantity != Quantity::angle || !setting.is_plain) continue;
+      const auto values = numbers_of(setting);
+      const auto found = std::ranges::find_if(values, [](double value) { return std::abs(value) > turn; });
+      if (found == values.end()) continue;
+      const std::string number = number_text(*found);
+      warnings.push_back({to_string(setting.location_of(static_cast<std::size_t>(found - values.begin()))),
+                          setting.is_axis() ? "sweep" : std::string(setting.key->section),
+                          std::string(setting.key->name) + " = " + number +
+                              " is in rad, more than a turn; if degrees are meant, give the unit: \"" + number +
+                              " deg\""});
+    }
+}
+
+/// Warns of a value that counts for nothing, since [sweep] has an axis of its key.
+void warn_of_surplus_values(const Settings& settings, std::vector<Warning>& warnings) {
+  for (const Replaced& replaced : settings.replaced)
+    if (replaced.is_surplus)
+      warnings.push_back({to_string(replaced.former), std::string(settings.scene_section),
+                          '\'' + std::string(replaced.parameter.key()) +
+                              "' has no effect beside its axis in [sweep], " + to_string(replaced.by) +
+                              "; leave one of them out"});
 }
 
 /// Warns of an axis of the file that the command line replaces by one value.
@@ -269,7 +305,8 @@ void look_at(const Settings& settings, const Setting& setting, std::vector<Warni
 std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& groups) {
   std::vector<Warning> warnings = keys_without_effect(settings);
   warn_of_repeats(settings, groups, warnings);
-  warn_of_great_ratios(settings, warnings), warn_of_lost_axes(settings, warnings);
+  warn_of_great_ratios(settings, warnings), warn_of_great_angles(settings, warnings);
+  warn_of_lost_axes(settings, warnings), warn_of_surplus_values(settings, warnings);
   warn_of_nothing_observed(settings, warnings);
   return warnings;
 }

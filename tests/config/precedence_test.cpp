@@ -93,14 +93,20 @@ TEST(Precedence, two_values_in_one_file_or_command_line_stay_a_mistake) {
     const std::string mistake = mistake_in("a.toml", text, changes);
     EXPECT_NE(mistake.find(words), std::string::npos) << mistake;
   };
-  says(fixed, {{"scene.f", "1"}, {"sweep.f", "1, 2"}},
-       "'f' in both [scene] and [sweep]; remove one of them (for a single value: sweep.f = VALUE)");
   says(fixed, {{"scene.R", "1"}, {"scene.R_lower", "1"}}, "'R' conflicts with 'R_lower'; remove one of them");
   says(fixed, {{"scene.xs", "1"}, {"scene.stop_upper", "2"}}, "'xs' conflicts with 'stop_upper'; remove one of them");
   says(swept, {{"scene.R", "0.5"}, {"sweep.R_lower", "0.1, 0.2"}}, "'R' conflicts with 'R_lower'; remove one of them");
   says("[scene]\nxs = 1\n[sweep]\nR_lower = [0.1, 0.2]\n", {{"scene.R", "0.5"}, {"scene.R_lower", "1"}},
        "'R' conflicts with 'R_lower'; remove one of them");
   says(fixed + "stop_upper = 5\n", {{"scene.stop_lower", "-1"}}, "a.toml:5:1: 'stop_upper' conflicts with 'xs'");
+}
+
+/// As when a run is turned into a sweep.
+TEST(Precedence, of_a_value_and_an_axis_in_one_place_the_axis_counts) {
+  const std::string both = "[scene]\nxs = -4\nR = 0.7\n[sweep]\nR = [0.5, 0.6]\n";
+  expect_same(both, {}, "[scene]\nxs = -4\n[sweep]\nR = [0.5, 0.6]\n");
+  expect_same("[scene]\nxs = -4\n", {{"scene.f", "1"}, {"sweep.f", "1, 2"}}, "[scene]\nxs = -4\n[sweep]\nf = [1, 2]\n");
+  expect_same(both, {{"scene.R", "0.9"}}, "[scene]\nxs = -4\nR = 0.9\n");  // the command line wins over both
 }
 
 TEST(Precedence, an_axis_that_is_gone_is_named_in_the_error_that_misses_it) {

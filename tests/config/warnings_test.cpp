@@ -42,6 +42,27 @@ void expect_none(const std::string& text) {
 const std::string scene = "[scene]\nxs = 1\nf = 1\n";                                  // lines 1 to 3
 const std::string transient = scene + "[time]\nmode = \"transient\"\nduration = 9\n";  // lines 1 to 6
 
+TEST(Warnings, a_value_beside_its_axis) {
+  const std::string both = "[scene]\nxs = 1\nR = 0.7\n[sweep]\nR = [0.5, 0.6]\n";
+  expect_warning(observing(both), "3:1", "'R' has no effect beside its axis in [sweep], ");
+  expect_warning(observing("[sweep]\nR = [0.5, 0.6]\n[scene]\nxs = 1\nR = 0.7\n"), "5:1", "leave one of them out");
+  EXPECT_EQ(warnings_of("a.toml", observing("[scene]\nxs = 1\n"), {{"scene.R", "1"}, {"sweep.R", "0.5, 0.6"}}).size(),
+            1u);
+}
+
+TEST(Warnings, an_angle_beyond_a_turn_without_unit) {
+  const std::string driven = "[scene]\nxs = 1\nf = 1\n";
+  expect_warning(observing(driven + "phase = 90\n"), "4:9",
+                 "phase = 90 is in rad, more than a turn; if degrees are meant, give the unit: \"90 deg\"");
+  expect_warning(observing(driven + "base_amplitude = 0.1\nstop_phase = -45.5\n"), "5:14",
+                 "give the unit: \"-45.5 deg\"");
+  EXPECT_TRUE(warnings_of("a.toml", observing(driven + "[sweep]\nphase = [0, 90]\n")).at(0).starts_with("5:13: phase"));
+  expect_warning(driven + "[observe]\nsection = 8\nsection_phase = 90\n", "6:17", "section_phase = 90 is in rad");
+  for (const char* const meant :
+       {"phase = 6.28\n", "phase = \"90 deg\"\n", "phase = \"90 rad\"\n", "phase = \"4*pi\"\n"})
+    expect_none(observing(driven + meant));
+}
+
 TEST(WithoutEffect, keys_of_the_other_mode_are_warned_of) {
   expect_warning(observing(scene + "[time]\nduration = 9\n"), "5:1",
                  "'duration' has no effect without mode = \"transient\"; leave it out, or write that in [time]");

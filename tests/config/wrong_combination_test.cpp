@@ -7,8 +7,6 @@ const std::string both = "[scene]\nxs = 1\n[sweep]\nnu = [1, 2]\n";
 
 TEST(Together, alternatives_exclude_each_other) {
   const std::vector<Wrong> table{
-      {both + "xs = [1]\n", "5:1", "'xs' in both [scene] and [sweep]; remove one of them"},
-      {"[sweep]\nnu = [1]\n[scene]\nxs = 1\n nu = 1\n", "5:2", "'nu' in both [scene] and [sweep]"},
       {"[scene]\nxs = 1\nstop_lower = -1\n", "3:1", "'stop_lower' conflicts with 'xs'"},
       {"[scene]\nstop_lower = -1\nstop_upper = 1\nxs = 1\n", "4:1", "'xs' conflicts with 'stop_lower'"},
       {both + "stop_upper = [1]\n", "5:1", "'stop_upper' conflicts with 'xs'"},

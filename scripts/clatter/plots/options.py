@@ -80,10 +80,21 @@ def command_line():
             parser.error(f"'{word}' begins like an option; write -- before it, or ./{word}")
     options = parser.parse_intermixed_args(joined(words))
     end_formats(parser, options)
+    check_folder(parser, options.output)
     options.files += files
     if not options.files:
         parser.error("no FILE.h5")
     return options
+
+
+def check_folder(parser, name):
+    """Refuses the name of a picture where that of a folder is meant."""
+    folder, ending = os.path.split(name or "")[0] or ".", os.path.splitext(name or "")[1].lower()
+    if ending in (".svg", ".png", ".pdf", ".jpg", ".jpeg", ".eps", ".gif") and not os.path.isdir(name):
+        parser.error(
+            f"argument -o: '{name}' is the name of a picture, and pictures are named by their files; name their folder: "
+            f"-o {folder} --format {ending[1:] if ending in ('.svg', '.png', '.pdf') else 'svg'}"
+        )
 
 
 def choices(files, words=()):

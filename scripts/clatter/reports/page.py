@@ -12,7 +12,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from .._command import write_whole
-from .._program import program
+from .._program import WRONG_USE, ClatterError, program
 from ..hdf5_files import FileProblem
 from ..plots.data import Output
 from ..plots.style import own_style
@@ -40,7 +40,10 @@ def write_page(files, path, title, may_run):
 
 
 def check_place(path):
-    """An older report may be replaced, any other file not."""
+    """The page is HTML; an older report may be replaced, any other file not."""
+    if path.suffix.lower() in (".pdf", ".md", ".docx", ".txt", ".svg", ".png", ".h5", ".json", ".csv"):
+        way_out = f"name it {path.with_suffix('.html')}, which a browser prints as PDF"
+        raise ClatterError(f"{path}: a report is a page in HTML; {way_out}", WRONG_USE)
     if not path.parent.is_dir():
         raise FileProblem(f"{path}: there is no folder {path.parent}; make it, or name another file with -o")
     if not os.path.exists(path):
