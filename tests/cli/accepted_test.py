@@ -1,4 +1,4 @@
-"""What was once accepted in silence, and gave something else than was meant, is refused, warned of, or taken as meant."""
+"""What was once accepted in silence and gave something else than was meant is refused, warned of, or done as meant."""
 
 import subprocess
 import unittest

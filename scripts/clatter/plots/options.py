@@ -92,7 +92,7 @@ def check_folder(parser, name):
     folder, ending = os.path.split(name or "")[0] or ".", os.path.splitext(name or "")[1].lower()
     if ending in (".svg", ".png", ".pdf", ".jpg", ".jpeg", ".eps", ".gif") and not os.path.isdir(name):
         parser.error(
-            f"argument -o: '{name}' is the name of a picture, and pictures are named by their files; name their folder: "
+            f"argument -o: '{name}' is the name of a picture, and pictures are named by their files; name a folder: "
             f"-o {folder} --format {ending[1:] if ending in ('.svg', '.png', '.pdf') else 'svg'}"
         )
 
