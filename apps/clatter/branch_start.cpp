@@ -146,7 +146,7 @@ BranchStart from_scene(const Arguments& arguments) {
 BranchStart branch_start_of(const Arguments& arguments) {
   const std::optional<std::string> from = arguments.value("from");
   if (!from) return from_scene(arguments);
-  const PointOfOutput point = point_of_output(*from, places_of(arguments));
+  const PointOfOutput point = point_of_output(*from, conditions_of(arguments));
   require_period(point, *from);
   const FromPoint changes(point, *from);
   BranchStart begun{read(arguments, changes.varied()), arguments.operands.empty() ? *from : arguments.operands[0],

@@ -51,7 +51,7 @@ bool depends_on_others(const sweep::Sweep& sweep) {
 
 }  // namespace
 
-CertifiedFile::CertifiedFile(const std::string& path, const std::vector<Place>& where)
+CertifiedFile::CertifiedFile(const std::string& path, const std::vector<Condition>& where)
     : path_(path), summary_(outputs::read_summary(path)) {
   const CsvTable table(summary_, path, {.only = {"status"}, .where = where});
   sweep_ = outputs::config_of_output(summary_, path).sweep;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "certificates/tally.hpp"
-#include "file_points.hpp"
 #include "lanes/instruction_set.hpp"
+#include "point_filter.hpp"
 #include "point_rows.hpp"
 #include "results/dataset_file.hpp"
 #include "sweep/chains.hpp"
@@ -21,7 +21,7 @@ namespace clatter::app {
 class CertifiedFile {
  public:
   /// Reads the configuration, and which points are chosen. Throws UsageError, IoError, ChoiceError.
-  CertifiedFile(const std::string& path, const std::vector<Place>& where);
+  CertifiedFile(const std::string& path, const std::vector<Condition>& where);
 
   [[nodiscard]] const std::vector<std::size_t>& points() const { return points_; }  ///< those chosen, ascending
   /// The instruction set of the file, if this machine lacks it, so that motion may settle otherwise; empty: it has it.

@@ -41,22 +41,23 @@ struct Outcome {
 };
 
 /// Certifies the points of an output of `clatter run` or `clatter branch`.
-Outcome outcome_of(const std::string& path, const std::vector<Place>& places, const std::optional<std::size_t>& sample,
-                   const std::function<void(std::string_view line)>& take) {
+Outcome outcome_of(const std::string& path, const std::vector<Condition>& conditions,
+                   const std::optional<std::size_t>& sample, const std::function<void(std::string_view line)>& take) {
   const auto origin = results::origin_of(path);
   if (origin && origin->command == "accuracy")
     storage::refuse_reading(path, "holds what accuracy costs, not motions",
                             "name an output of `clatter run` or `clatter branch`");
   if (origin && origin->command == "branch") {
-    if (!places.empty()) throw UsageError("--where chooses points of a sweep, and a branch has no axis; use --sample");
+    if (!conditions.empty())
+      throw UsageError("--where chooses points of a sweep, and a branch has no axis; use --sample");
     return {CertifiedBranches(path).certify(sample, take)};
   }
-  const CertifiedFile file(path, places);
+  const CertifiedFile file(path, conditions);
   return {file.certify(sample ? certificates::spread(file.points(), *sample) : file.points(), take), file.lacking()};
 }
 
 int certify(const Arguments& arguments) try {
-  const auto places = places_of(arguments);
+  const auto conditions = conditions_of(arguments);
   const std::optional<std::size_t> sample = sample_of(arguments);
   const std::optional<std::string> output = text_output_of(arguments);
   std::string text;
@@ -71,7 +72,7 @@ int certify(const Arguments& arguments) try {
     if (count++ == 0) write(certificates::list_begin());
     write(line);
   };
-  const auto [tally, lacking] = outcome_of(arguments.operands[0], places, sample, take);
+  const auto [tally, lacking] = outcome_of(arguments.operands[0], conditions, sample, take);
   if (count > 0) write(certificates::list_end(count));
   if (output) storage::write_atomically(*output, text);
   std::cerr << tally.text();

@@ -6,6 +6,7 @@
 
 #include "config/suggestion.hpp"
 #include "csv_text.hpp"
+#include "motion_rows.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
 
@@ -27,11 +28,13 @@ ColumnKind kind_of(const CsvTable::Column& column) {
 }
 
 void append_row(Pieces& pieces, const std::vector<CsvTable::Column>& columns, const std::vector<std::size_t>& at,
-                std::size_t row) {
+                std::size_t point, std::size_t row) {
   bool first = true;
   for (const CsvTable::Column& column : columns) {
     if (!std::exchange(first, false)) pieces.text() += ',';
-    const std::size_t index = column.dimension ? at[*column.dimension] : row * column.width + column.part;
+    const std::size_t index = column.dimension  ? at[*column.dimension]
+                              : column.by_point ? (*column.by_point)[point]
+                                                : row * column.width + column.part;
     append_value(pieces.text(), column.variable->values, index, column.meanings);
   }
   pieces.end_line();
@@ -40,23 +43,33 @@ void append_row(Pieces& pieces, const std::vector<CsvTable::Column>& columns, co
 }  // namespace
 
 CsvTable::CsvTable(const results::FileSummary& summary, const std::string& path, TableChoice choice)
-    : summary_(summary), path_(path), choice_(std::move(choice)) {
-  rows_ = choice_.special ? dimensions_of_specials() : dimensions_of_points(summary_, path_);
+    : summary_(summary),
+      path_(path),
+      choice_(std::move(choice)),
+      rows_(dimensions_of_rows()),
+      filter_(summary_, path_, rows_, choice_.where) {
   for (const results::NamedLength& dimension : rows_)
     for (const std::string& name : coordinates_along(summary_, dimension)) axes_.push_back(name);
-  const std::vector<std::string> known = results_in_file();
+  if (choice_.rows == TableRows::motions) motions_ = motion_variables(summary_, path_);
+  std::vector<std::string> known = results_in_file();
+  known.insert(known.end(), motions_.begin(), motions_.end());
   for (const std::string& name : choice_.only)  // axes have columns whatever is chosen
     if (std::ranges::find(axes_, name) == axes_.end()) require_known(name, known);
-  for (const std::string& name : known)
-    if (choice_.only.empty() || is_named(name)) results_.push_back(name);
-  for (const Place& place : choice_.where)
-    if (std::ranges::find(axes_, place.axis) == axes_.end()) refuse_axis(place.axis);
+  const auto is_left_out = [&](const std::string& name) { return !choice_.only.empty() && !is_named(name); };
+  std::erase_if(motions_, is_left_out);
+  results_ = results_in_file();
+  std::erase_if(results_, is_left_out);
   collect_variables();
 }
 
 const Entry* CsvTable::find(std::string_view name) const { return find_variable(summary_, name); }
 
-std::vector<results::NamedLength> CsvTable::dimensions_of_specials() const {
+/// Whether a point has a row for each impact, or for each sample.
+bool CsvTable::is_ragged() const { return choice_.rows == TableRows::impacts || choice_.rows == TableRows::samples; }
+
+/// The dimensions of the points, or of special points.
+std::vector<results::NamedLength> CsvTable::dimensions_of_rows() const {
+  if (choice_.rows != TableRows::special) return dimensions_of_points(summary_, path_);
   const Entry* const kind = find("special_kind");
   if (kind == nullptr)
     throw ChoiceError("--special: " + storage::quoted_name(path_) +
@@ -66,22 +79,33 @@ std::vector<results::NamedLength> CsvTable::dimensions_of_specials() const {
 
 /// All variables with a value or several for each row.
 std::vector<std::string> CsvTable::results_in_file() const {
-  const auto is_logged = [](const Entry& entry) {
-    return entry.dimensions.size() == 1 && entry.dimensions[0].name == logged_impacts;
+  const auto is_over = [](const Entry& entry, std::string_view last) {
+    return !entry.dimensions.empty() && entry.dimensions.back().name == last;
   };
-  if (choice_.impacts && find(log_counts) == nullptr)
-    throw ChoiceError(
-        "--impacts: " + storage::quoted_name(path_) + " has no impact log; " +
-        (holds_branches(summary_) ? "no branch has one" : "run its configuration with --set observe.impact_log=true"));
   std::vector<std::string> names;
   for (const Entry& entry : summary_.variables) {
-    const bool is_axis = std::ranges::find(axes_, entry.name) != axes_.end();
+    const bool is_axis = std::ranges::find(axes_, entry.name) != axes_.end() || is_own_coordinate(entry);
+    const bool is_logged = is_over(entry, logged_impacts) && entry.dimensions.size() == 1;
     const bool is_over_rows = entry.dimensions.size() >= rows_.size() && entry.dimensions.size() <= rows_.size() + 1 &&
                               std::equal(rows_.begin(), rows_.end(), entry.dimensions.begin(), are_same);
-    const bool is_result = is_over_rows && !is_own_coordinate(entry);
-    if (choice_.impacts ? is_logged(entry) : is_result && !is_axis && !is_logged(entry)) names.push_back(entry.name);
+    const bool is_sampled = is_over_rows && is_over(entry, trajectory_samples);
+    const bool is_history = is_sampled || (is_over_rows && is_over(entry, "section"));
+    const bool is_result = is_over_rows && !is_logged && !(choice_.rows == TableRows::motions && is_history);
+    const bool is_wanted = choice_.rows == TableRows::impacts   ? is_logged
+                           : choice_.rows == TableRows::samples ? is_sampled
+                                                                : is_result;
+    if (is_wanted && !is_axis) names.push_back(entry.name);
   }
+  if (choice_.rows == TableRows::impacts && find(log_counts) == nullptr)
+    refuse_rows("--impacts", "no impact log", "observe.impact_log=true");
+  if (choice_.rows == TableRows::samples && names.empty())
+    refuse_rows("--samples", "no trajectories", "observe.trajectory=1000");
   return names;
+}
+
+void CsvTable::refuse_rows(const std::string& option, const std::string& lack, const std::string& setting) const {
+  throw ChoiceError(option + ": " + storage::quoted_name(path_) + " has " + lack + "; " +
+                    (holds_branches(summary_) ? "no branch has one" : "run its configuration with --set " + setting));
 }
 
 void CsvTable::require_known(const std::string& name, const std::vector<std::string>& known) const {
@@ -92,39 +116,35 @@ void CsvTable::require_known(const std::string& name, const std::vector<std::str
                     config::suggestion(part.variable, names, "; there are "));
 }
 
-void CsvTable::refuse_axis(const std::string& axis) const {
-  const std::vector<std::string_view> names(axes_.begin(), axes_.end());
-  throw ChoiceError("--where: " + config::in_quotes(axis) + " is no axis of " + storage::quoted_name(path_) +
-                    (names.empty() ? ", which has none" : config::suggestion(axis, names, "; its axes are ")));
-}
-
 /// Whether --only names a result or a component of it.
 bool CsvTable::is_named(const std::string& name) const {
   return std::ranges::any_of(choice_.only,
                              [&](const std::string& only) { return ComponentName(only).variable == name; });
 }
 
-/// The axes, the results and the coordinates of their components; of impacts also their counts.
+/// The axes, the results and the coordinates of their components; of impacts also their counts, of motions their
+/// numbers.
 void CsvTable::collect_variables() {
-  names_ = axes_;
-  if (choice_.impacts) names_.emplace_back(log_counts);
+  const auto need = [&](const std::string& name) {
+    if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
+  };
+  for (const std::vector<std::string>& some : {axes_, filter_.variables(), motions_})
+    for (const std::string& name : some) need(name);
+  if (choice_.rows == TableRows::impacts) need(std::string(log_counts));
+  if (choice_.rows == TableRows::motions) need("attractor");
   for (const std::string& name : results_) {
     const std::vector<results::NamedLength>& dimensions = find(name)->dimensions;
-    if (!choice_.impacts && dimensions.size() > rows_.size() && find(dimensions.back().name) != nullptr)
-      names_.push_back(dimensions.back().name);
-    names_.push_back(name);
+    if (!is_ragged() && dimensions.size() > rows_.size() && find(dimensions.back().name) != nullptr)
+      need(dimensions.back().name);
+    need(name);
   }
-  std::vector<std::string> once;
-  for (const std::string& name : names_)
-    if (std::ranges::find(once, name) == once.end()) once.push_back(name);
-  names_ = std::move(once);
 }
 
 /// The columns of a result: one, or one for each component that is wanted.
 std::vector<CsvTable::Column> CsvTable::columns_of(const std::string& name, const results::Dataset& dataset) const {
   const results::Variable& variable = variable_of(dataset, name);
   const std::vector<results::NamedLength>& dimensions = find(name)->dimensions;
-  if (choice_.impacts || dimensions.size() == rows_.size()) return {{name, &variable, meanings_of(variable)}};
+  if (is_ragged() || dimensions.size() == rows_.size()) return {{name, &variable, meanings_of(variable)}};
   const results::NamedLength& along = dimensions.back();
   std::vector<Column> columns;
   for (std::size_t part = 0; part < along.length; ++part) {
@@ -148,6 +168,7 @@ std::vector<CsvTable::Column> CsvTable::columns(const results::Dataset& dataset)
   }
   for (const std::string& name : results_)
     for (Column& column : columns_of(name, dataset)) columns.push_back(std::move(column));
+  for (Column& column : motion_columns(dataset)) columns.push_back(std::move(column));
   std::ranges::stable_sort(columns, {}, kind_of);
   return columns;
 }
@@ -168,36 +189,39 @@ std::string CsvTable::comments(const std::vector<Column>& columns) const {
   return text;
 }
 
-/// Which indexes along each dimension of the rows are wanted.
-std::vector<std::vector<bool>> CsvTable::wanted(const results::Dataset& dataset) const {
-  std::vector<std::vector<bool>> wanted;
-  for (const results::NamedLength& dimension : rows_) wanted.emplace_back(dimension.length, true);
-  for (const Place& asked : choice_.where) {
-    const Entry& entry = *find(asked.axis);
-    const std::string& dimension = entry.dimensions[0].name;
-    const auto place = std::ranges::find(rows_, dimension, &results::NamedLength::name) - rows_.begin();
-    std::vector<bool>& along = wanted[static_cast<std::size_t>(place)];
-    const std::vector<bool> here = indexes_at(asked, variable_of(dataset, asked.axis), entry, path_);
-    for (std::size_t i = 0; i < along.size(); ++i) along[i] = along[i] && here[i];
+/// The columns of motions: each point has those of the motion that it ends in.
+std::vector<CsvTable::Column> CsvTable::motion_columns(const results::Dataset& dataset) const {
+  std::vector<Column> columns;
+  if (motions_.empty()) return columns;
+  const MotionRows rows(summary_, path_, dataset);
+  const auto of_motion = std::make_shared<const std::vector<std::size_t>>(rows.motion_of_points()),
+             of_share = std::make_shared<const std::vector<std::size_t>>(rows.share_of_points());
+  for (const std::string& name : motions_) {
+    const results::Variable& variable = variable_of(dataset, name);
+    const bool is_share = find(name)->dimensions.size() > 1;
+    columns.push_back({name, &variable, meanings_of(variable), 1, 0, std::nullopt, is_share ? of_share : of_motion});
   }
-  return wanted;
+  return columns;
 }
 
 /// Throws IoError unless each column has a value for each row: anyone may have made the file.
 void CsvTable::require_complete(const std::vector<Column>& columns, std::size_t rows) const {
   for (const Column& column : columns) {
     const std::size_t length = std::visit([](const auto& values) { return values.size(); }, column.variable->values);
-    const std::size_t wanted = column.dimension ? rows_[*column.dimension].length : rows * column.width;
+    const std::size_t wanted = column.dimension  ? rows_[*column.dimension].length
+                               : column.by_point ? points_of(find(column.variable->name)->dimensions)
+                                                 : rows * column.width;
     if (length != wanted)
       storage::refuse_reading(path_, "is damaged: " + config::in_quotes(column.variable->name) + " has another length",
                               "run its configuration again");
   }
 }
 
-/// The impacts of each point.
+/// The rows of each point.
 std::vector<std::size_t> CsvTable::rows_of_points(const results::Dataset& dataset) const {
-  std::vector<std::size_t> rows(points_of(rows_), 1);
-  if (!choice_.impacts) return rows;
+  const bool is_sampled = choice_.rows == TableRows::samples && !results_.empty();
+  std::vector<std::size_t> rows(points_of(rows_), is_sampled ? find(results_[0])->dimensions.back().length : 1);
+  if (choice_.rows != TableRows::impacts) return rows;
   const auto* const counts = std::get_if<std::vector<std::int64_t>>(&variable_of(dataset, log_counts).values);
   const bool is_sound =
       counts != nullptr && counts->size() == rows.size() &&
@@ -208,13 +232,10 @@ std::vector<std::size_t> CsvTable::rows_of_points(const results::Dataset& datase
   return rows;
 }
 
-/// Whether `where` chooses each point.
+/// Whether `where` chooses each point; of motions only the first that ends in each.
 std::vector<bool> CsvTable::chosen(const results::Dataset& dataset) const {
-  const std::vector<std::vector<bool>> is_wanted = wanted(dataset);
-  std::vector<std::size_t> at(rows_.size(), 0);
-  std::vector<bool> chosen(points_of(rows_), true);
-  for (std::size_t point = 0; point < chosen.size(); ++point, advance(at, rows_))
-    for (std::size_t d = 0; d < at.size(); ++d) chosen[point] = chosen[point] && is_wanted[d][at[d]];
+  std::vector<bool> chosen = filter_.chosen(dataset);
+  if (choice_.rows == TableRows::motions) MotionRows(summary_, path_, dataset).keep_first(chosen);
   return chosen;
 }
 
@@ -239,7 +260,7 @@ void CsvTable::write(const results::Dataset& dataset, const std::function<void(s
   std::vector<std::size_t> at(rows_.size(), 0);
   std::size_t row = 0;
   for (std::size_t point = 0; point < rows.size(); ++point, advance(at, rows_)) {
-    for (std::size_t i = 0; is_chosen[point] && i < rows[point]; ++i) append_row(pieces, shown, at, row + i);
+    for (std::size_t i = 0; is_chosen[point] && i < rows[point]; ++i) append_row(pieces, shown, at, point, row + i);
     row += rows[point];
   }
   pieces.flush();

@@ -1,5 +1,6 @@
 #include <iostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.hpp"
@@ -30,13 +31,21 @@ std::vector<std::string> listed(const std::vector<std::string>& values) {
   return words;
 }
 
+TableRows rows_of(const Arguments& arguments) {
+  TableRows rows = TableRows::points;
+  std::string chosen;
+  for (const auto& [option, own] :
+       {std::pair("impacts", TableRows::impacts), std::pair("samples", TableRows::samples),
+        std::pair("motions", TableRows::motions), std::pair("special", TableRows::special)}) {
+    if (!arguments.has(option)) continue;
+    if (!chosen.empty()) throw UsageError("--" + chosen + " conflicts with --" + option + "; give one of them");
+    chosen = option, rows = own;
+  }
+  return rows;
+}
+
 TableChoice choice_of(const Arguments& arguments) {
-  if (arguments.has("impacts") && arguments.has("special"))
-    throw UsageError("--impacts conflicts with --special; give one of them");
-  return {.only = listed(arguments.values("only")),
-          .where = places_of(arguments),
-          .impacts = arguments.has("impacts"),
-          .special = arguments.has("special")};
+  return {.only = listed(arguments.values("only")), .where = conditions_of(arguments), .rows = rows_of(arguments)};
 }
 
 int export_table(const Arguments& arguments) try {
@@ -63,7 +72,9 @@ constexpr std::string_view examples =
     "  clatter export fig22.h5 > fig22.csv\n"
     "  clatter export map.h5 --only x_max,v_before[-1] --where nu=1.0 -o part.csv\n"
     "  clatter export drive.h5 --where gap='1.5 mm'\n"
+    "  clatter export map.h5 --where 'impact_speed < 0.4' --where impact_word=LU\n"
     "  clatter export fig18.h5 --impacts\n"
+    "  clatter export basins.h5 --motions --only motion_word,motion_share\n"
     "  clatter export curve.branch.h5 --special\n";
 
 }  // namespace
@@ -79,6 +90,8 @@ Command export_command() {
                        true},
                       where_option,
                       {"impacts", 0, "", "one row for each logged impact instead of one for each point"},
+                      {"samples", 0, "", "one row for each sample of the trajectories: time, x, v, ..."},
+                      {"motions", 0, "", "one row for each motion that starts end in, with its share"},
                       {"special", 0, "", "one row for each special point of branches instead of one for each point"},
                       {"output", 'o', "FILE.csv", "output file; default: standard output"},
                       force_option,

@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <variant>
 
-#include "config/config_error.hpp"
 #include "config/suggestion.hpp"
 #include "csv_text.hpp"
 #include "scene/parameter.hpp"
@@ -16,30 +15,11 @@
 namespace clatter::app {
 namespace {
 
-using Entry = results::FileSummary::Entry;
-
 constexpr double same = 1e-9;  ///< of the length of an axis: values that count as equal
-
-/// The values as double; none of texts.
-std::vector<double> numbers_in(const results::ValueArray& values) {
-  std::vector<double> numbers;
-  std::visit(
-      [&]<class T>(const std::vector<T>& of_type) {
-        if constexpr (std::is_arithmetic_v<T>)
-          for (const T value : of_type) numbers.push_back(static_cast<double>(value));
-      },
-      values);
-  return numbers;
-}
 
 }  // namespace
 
-double number_of(const Place& place, const Entry& entry, const std::string& path) try {
-  return config::in_unit_of_file(place.value, entry.units, {.source = "--where " + place.axis},
-                                 config::in_quotes(place.axis) + " in " + storage::quoted_name(path));
-} catch (const config::ConfigError& error) {
-  throw ChoiceError(error.what());
-}
+using Entry = results::FileSummary::Entry;
 
 const Entry* find_variable(const results::FileSummary& summary, std::string_view name) {
   const auto found = std::ranges::find(summary.variables, name, &Entry::name);
@@ -121,18 +101,24 @@ void advance(std::vector<std::size_t>& at, const std::vector<results::NamedLengt
   }
 }
 
-std::vector<bool> indexes_at(const Place& place, const results::Variable& axis, const Entry& entry,
-                             const std::string& path) {
-  const double wanted = number_of(place, entry, path);
-  std::vector<double> values = numbers_in(axis.values);
+std::vector<double> numbers_in(const results::ValueArray& values) {
+  std::vector<double> numbers;
+  std::visit(
+      [&]<class T>(const std::vector<T>& of_type) {
+        if constexpr (std::is_arithmetic_v<T>)
+          for (const T value : of_type) numbers.push_back(static_cast<double>(value));
+      },
+      values);
+  return numbers;
+}
+
+double same_on_axis(const std::vector<double>& values, double wanted) {
   const double extent = values.empty() ? 0.0 : std::ranges::max(values) - std::ranges::min(values);
-  const double near_enough = same * (std::isfinite(extent) ? std::max(extent, std::abs(wanted)) : std::abs(wanted));
-  const auto is_it = [&](double value) {
-    return value == wanted || (std::isfinite(wanted) && std::abs(value - wanted) <= near_enough);
-  };
-  std::vector<bool> here;
-  for (const double value : values) here.push_back(is_it(value));
-  if (std::ranges::find(here, true) != here.end()) return here;
+  const double length = std::isfinite(extent) ? std::max(extent, std::abs(wanted)) : std::abs(wanted);
+  return std::isfinite(length) ? same * length : 0.0;
+}
+
+void refuse_value(const std::string& axis, double wanted, std::vector<double> values) {
   std::string asked, near;
   append_number(asked, wanted);
   std::ranges::sort(values);
@@ -140,7 +126,7 @@ std::vector<bool> indexes_at(const Place& place, const results::Variable& axis, 
   std::ranges::stable_sort(values, {}, [&](double value) { return std::abs(value - wanted); });
   for (std::size_t i = 0; i < std::min<std::size_t>(2, values.size()); ++i)
     append_number(near += i == 0 ? "" : " and ", values[i]);
-  throw ChoiceError("--where " + axis.name + '=' + asked + ": the axis has no such value; " +
+  throw ChoiceError("--where " + axis + '=' + asked + ": the axis has no such value; " +
                     (values.size() > 1 ? "the nearest are " : "it has only ") + near);
 }
 

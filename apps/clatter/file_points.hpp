@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "config/reading.hpp"
 #include "results/dataset.hpp"
 #include "results/dataset_file.hpp"
 
@@ -22,15 +21,9 @@ class ChoiceError : public std::runtime_error {
 };
 
 /// The dimensions of points and special points in files of branches, and what the names of the latter's variables
-/// begin with; the dimension of a log of impacts.
+/// begin with; the dimensions of a log of impacts, of the motions that starts end in, and of a trajectory.
 inline constexpr std::string_view branch_points = "point", special_points = "special", special_prefix = "special_",
-                                  logged_impacts = "impact";
-
-/// A value that an axis shall have, as --where gives it.
-struct Place {
-  std::string axis;
-  config::Reading value{};
-};
+                                  logged_impacts = "impact", ended_motions = "motion", trajectory_samples = "sample";
 
 /// The variable of that name; nullptr: the file has none.
 [[nodiscard]] const results::FileSummary::Entry* find_variable(const results::FileSummary& summary,
@@ -81,12 +74,13 @@ struct ComponentName {
 /// Advances indexes to the next point, the last dimension first.
 void advance(std::vector<std::size_t>& at, const std::vector<results::NamedLength>& rows);
 
-/// The value that a place asks for, in the unit of a variable. Throws ChoiceError if its own unit doesn't fit.
-[[nodiscard]] double number_of(const Place& place, const results::FileSummary::Entry& entry, const std::string& path);
+/// The values as double; none of texts.
+[[nodiscard]] std::vector<double> numbers_in(const results::ValueArray& values);
 
-/// Which values of an axis are the one that a place asks for, in the axis's own unit. Throws ChoiceError if none is, or
-/// if the unit of the place doesn't fit.
-[[nodiscard]] std::vector<bool> indexes_at(const Place& place, const results::Variable& axis,
-                                           const results::FileSummary::Entry& entry, const std::string& path);
+/// How far a value of an axis may be from a wanted one to count as equal.
+[[nodiscard]] double same_on_axis(const std::vector<double>& values, double wanted);
+
+/// Throws ChoiceError: an axis has no such value; names the nearest.
+[[noreturn]] void refuse_value(const std::string& axis, double wanted, std::vector<double> values);
 
 }  // namespace clatter::app

@@ -23,7 +23,7 @@
 namespace clatter::app {
 namespace {
 
-using Places = std::vector<Place>;
+using Conditions = std::vector<Condition>;
 
 [[noreturn]] void refuse_damaged(const std::string& path) {
   storage::refuse_reading(path, "is damaged: its points aren't those of its configuration",
@@ -85,7 +85,7 @@ std::string_view fault_of(std::uint8_t status) {
   return {};
 }
 
-PointOfOutput point_of_sweep(const std::string& path, const Places& where) {
+PointOfOutput point_of_sweep(const std::string& path, const Conditions& where) {
   const results::FileSummary summary = outputs::read_summary(path);
   const CsvTable table(summary, path, {.only = {"status"}, .where = where});
   const sweep::Sweep sweep = outputs::config_of_output(summary, path).sweep;
@@ -139,13 +139,13 @@ class BranchPoints {
     count_ = branch->size();
   }
 
-  [[nodiscard]] PointOfOutput chosen(const Places& where) const {
+  [[nodiscard]] PointOfOutput chosen(const Conditions& where) const {
     std::vector<std::size_t> points;
     std::vector<double> values;
-    for (const Place& place : where) values.push_back(value_of(place));
+    for (const Condition& condition : where) values.push_back(value_of(condition));
     for (std::size_t i = 0; i < count_; ++i) {
       bool is_there = true;
-      for (std::size_t p = 0; p < where.size(); ++p) is_there = is_there && is_at(i, where[p].axis, values[p]);
+      for (std::size_t p = 0; p < where.size(); ++p) is_there = is_there && is_at(i, where[p].name, values[p]);
       if (is_there) points.push_back(i);
     }
     if (points.size() > 1)
@@ -164,9 +164,11 @@ class BranchPoints {
   }
 
   /// Of --where, in the unit of the file.
-  [[nodiscard]] double value_of(const Place& place) const {
-    const auto* const entry = find_variable(summary_, place.axis);
-    return entry != nullptr ? number_of(place, *entry, path_) : place.value.value;
+  [[nodiscard]] double value_of(const Condition& condition) const {
+    if (condition.comparison != Comparison::equal || !condition.value)
+      throw UsageError("--where " + text_of(condition) + ": a start is one point; " + offered());
+    const auto* const entry = find_variable(summary_, condition.name);
+    return entry != nullptr ? number_of(condition, *entry, path_) : condition.value->value;
   }
   [[nodiscard]] bool is_at(std::size_t i, const std::string& name, double value) const {
     if (name == "point") return value == static_cast<double>(i);
@@ -239,7 +241,7 @@ class BranchPoints {
 
 }  // namespace
 
-PointOfOutput point_of_output(const std::string& path, const Places& where) try {
+PointOfOutput point_of_output(const std::string& path, const Conditions& where) try {
   const auto origin = results::origin_of(path);
   if (origin && origin->command == "accuracy")
     storage::refuse_reading(path, "holds what accuracy costs, not motions",

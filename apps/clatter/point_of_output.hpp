@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "file_points.hpp"
+#include "point_filter.hpp"
 #include "scene/given_scene.hpp"
 #include "scene/parameter.hpp"
 
@@ -22,6 +22,6 @@ struct PointOfOutput {
 /// the numbers of a branch and of a point. A point of a sweep is run anew as `clatter run` runs it, so that any output
 /// will do; a point of a branch is stored with its state. Throws UsageError if there is no such point, or several, or
 /// no periodic motion there, and IoError if the file can't be read.
-[[nodiscard]] PointOfOutput point_of_output(const std::string& path, const std::vector<Place>& where);
+[[nodiscard]] PointOfOutput point_of_output(const std::string& path, const std::vector<Condition>& where);
 
 }  // namespace clatter::app

@@ -12,8 +12,6 @@ namespace {
 
 using results::Variable;
 
-constexpr std::string_view motions = "motion";
-
 std::size_t size_of(const results::ValueArray& values) {
   return std::visit([](const auto& of_type) { return of_type.size(); }, values);
 }
@@ -59,7 +57,7 @@ PointRows PointRows::chosen(const std::vector<std::string>& names, std::vector<s
   for (const std::string& name : names) {
     Variable variable = std::move(read({name}).variables.at(0));
     if (!all.has_rows(variable)) continue;
-    if (!is_over(variable, motions)) variable.values = values_of(all, variable, chosen);
+    if (!is_over(variable, ended_motions)) variable.values = values_of(all, variable, chosen);
     dataset.variables.push_back(std::move(variable));
   }
   return {std::move(dataset), std::move(dimensions), chosen.size()};
@@ -72,7 +70,7 @@ const Variable* PointRows::find(std::string_view name) const {
 
 bool PointRows::has_rows(const Variable& variable) const {
   if (is_over(variable, variable.name)) return false;  // a coordinate
-  if (is_over(variable, logged_impacts) || is_over(variable, motions)) return true;
+  if (is_over(variable, logged_impacts) || is_over(variable, ended_motions)) return true;
   const std::vector<std::string>& along = variable.dimensions;
   return along.size() >= dimensions_.size() && std::equal(dimensions_.begin(), dimensions_.end(), along.begin());
 }
@@ -82,7 +80,7 @@ PointRows::Row PointRows::row(const Variable& variable, std::size_t point) const
   Row row{point * (size / points_), size / points_};
   if (is_over(variable, logged_impacts))
     row = point + 1 < logged_.size() ? Row{logged_[point], logged_[point + 1] - logged_[point]} : Row{};
-  if (is_over(variable, motions)) {
+  if (is_over(variable, ended_motions)) {
     const auto* const numbers = results::values_of<std::int32_t>(dataset_, "attractor");
     const bool ends_in_one = numbers != nullptr && point < numbers->size() && (*numbers)[point] >= 0;
     row = ends_in_one ? Row{static_cast<std::size_t>((*numbers)[point]), 1} : Row{};

@@ -1,41 +1,29 @@
 #include "table_options.hpp"
 
 #include <filesystem>
+#include <span>
 
-#include "config/config_error.hpp"
-#include "config/suggestion.hpp"
 #include "storage/atomic_write.hpp"
 #include "storage/error.hpp"
 #include "storage/free_name.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::app {
-namespace {
 
-Place place(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  const std::string option = "--where " + config::in_quotes(text);
-  if (equals == std::string::npos || equals == 0) throw UsageError(option + "; expected AXIS=VALUE, e.g. nu=1.0");
-  try {
-    return {text.substr(0, equals),
-            config::parse_reading({std::string_view(text).substr(equals + 1), {.source = option}})};
-  } catch (const config::ConfigError& error) {
-    throw UsageError(std::string(error.what()) + "; expected AXIS=VALUE, e.g. nu=1.0");
-  }
-}
-
-}  // namespace
-
-std::vector<Place> places_of(const Arguments& arguments) {
-  std::vector<Place> places;
+std::vector<Condition> conditions_of(const Arguments& arguments) try {
+  std::vector<Condition> conditions;
   for (const std::string& text : arguments.values("where")) {
-    places.push_back(place(text));
-    for (std::size_t i = 0; i + 1 < places.size(); ++i)
-      if (places[i].axis == places.back().axis && places[i].value.value != places.back().value.value)
-        throw UsageError("--where " + storage::excerpt(text) + " beside --where " +
-                         storage::excerpt(arguments.values("where")[i]) + "; an axis has one value at a point");
+    conditions.push_back(condition_of(text));
+    const Condition& last = conditions.back();
+    for (const Condition& other : std::span(conditions).first(conditions.size() - 1))
+      if (other.name == last.name && other.comparison == Comparison::equal && last.comparison == Comparison::equal &&
+          other.word != last.word)
+        throw UsageError("--where " + storage::excerpt(text_of(last)) + " beside --where " +
+                         storage::excerpt(text_of(other)) + "; a point has one value of it");
   }
-  return places;
+  return conditions;
+} catch (const ChoiceError& error) {
+  throw UsageError(error.what());
 }
 
 std::optional<std::string> text_output_of(const Arguments& arguments) {

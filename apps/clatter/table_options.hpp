@@ -5,16 +5,17 @@
 #include <vector>
 
 #include "command_line.hpp"
-#include "file_points.hpp"
+#include "point_filter.hpp"
 
 namespace clatter::app {
 
 /// Options of the commands that print a part of an output as text.
-inline const Option where_option{"where", 0, "AXIS=VALUE",
-                                 "points at this value of an axis, e.g. nu=1.0 or gap='1.5 mm'; repeatable", true};
+inline const Option where_option{
+    "where", 0, "CONDITION",
+    "points that meet this, e.g. nu=1.0, 'gap < 1.5 mm', 'impact_speed < 0.4 m/s' or impact_word=LU; repeatable", true};
 
-/// The axes and values of all --where, as they were written. Throws UsageError.
-[[nodiscard]] std::vector<Place> places_of(const Arguments& arguments);
+/// The conditions of all --where. Throws UsageError.
+[[nodiscard]] std::vector<Condition> conditions_of(const Arguments& arguments);
 
 /// The file that -o names; nothing: standard output. Throws UsageError if it is the input, and IoError if it exists,
 /// but for --force, or cannot be written.

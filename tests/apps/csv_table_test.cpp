@@ -90,23 +90,25 @@ TEST(CsvTable, tells_title_units_and_meanings_in_lines_of_their_own) {
 }
 
 TEST(CsvTable, may_have_some_columns_and_rows) {
-  EXPECT_EQ(table({.only = {"x_phase[1]", "x_max"}, .where = {{"R", {0.7}}}}),
+  EXPECT_EQ(table({.only = {"x_phase[1]", "x_max"}, .where = {condition_of("R=0.7")}}),
             "nu,f,R,x_max,x_phase[1]\n0.5,-1,0.7,nan,1.1\n1,-2,0.7,inf,3.1\n");
-  EXPECT_EQ(table({.only = {"status"}, .where = {{"f", {-2}}, {"R", {0.3 + 1e-12}}}}),
+  EXPECT_EQ(table({.only = {"status"}, .where = {condition_of("f=-2"), condition_of("R=0.300000000001")}}),
             "nu,f,R,status\n1,-2,0.3,periodic\n");
 }
 
 TEST(CsvTable, may_have_a_row_for_each_impact) {
-  EXPECT_EQ(table({.impacts = true}), "nu,f,R,impact_tau\n0.5,-1,0.3,0.5\n1,-2,0.3,1.5\n1,-2,0.3,2.5\n");
-  EXPECT_EQ(table({.where = {{"nu", {1}}}, .impacts = true}), "nu,f,R,impact_tau\n1,-2,0.3,1.5\n1,-2,0.3,2.5\n");
+  EXPECT_EQ(table({.rows = TableRows::impacts}), "nu,f,R,impact_tau\n0.5,-1,0.3,0.5\n1,-2,0.3,1.5\n1,-2,0.3,2.5\n");
+  EXPECT_EQ(table({.where = {condition_of("nu=1")}, .rows = TableRows::impacts}),
+            "nu,f,R,impact_tau\n1,-2,0.3,1.5\n1,-2,0.3,2.5\n");
 }
 
 TEST(CsvTable, refuses_what_the_file_does_not_have) {
   EXPECT_EQ(refusal({.only = {"x_maxx"}}), "--only: 'x_maxx' is no column of 'a.h5'; did you mean 'x_max'?");
   EXPECT_EQ(refusal({.only = {"x_phase[7]"}}),
-            "--only: 'x_phase[7]' is no component; there are x_phase[0] to x_phase[1]");
-  EXPECT_EQ(refusal({.where = {{"xs", {1}}}}), "--where: 'xs' is no axis of 'a.h5'; its axes are nu, f, R");
-  EXPECT_EQ(refusal({.where = {{"nu", {0.8}}}}),
+            "--only: 'x_phase[7]' is no component; there are x_phase[0], x_phase[1]");
+  EXPECT_EQ(refusal({.where = {condition_of("xs=1")}}),
+            "--where: 'xs' is neither an axis nor a result of 'a.h5'; its axes are nu, f, R");
+  EXPECT_EQ(refusal({.where = {condition_of("nu=0.8")}}),
             "--where nu=0.8: the axis has no such value; the nearest are 1 and 0.5");
 }
 
@@ -116,9 +118,9 @@ TEST(CsvTable, refuses_a_file_that_contradicts_itself) {
   EXPECT_THROW(table({}, other), storage::IoError);
   other = dataset;
   std::get<std::vector<std::int64_t>>(other.variables[8].values)[0] = 7;  // more impacts than the log has
-  EXPECT_THROW(table({.impacts = true}, other), storage::IoError);
+  EXPECT_THROW(table({.rows = TableRows::impacts}, other), storage::IoError);
   std::get<std::vector<std::int64_t>>(other.variables[8].values)[0] = -1;
-  EXPECT_THROW(table({.impacts = true}, other), storage::IoError);
+  EXPECT_THROW(table({.rows = TableRows::impacts}, other), storage::IoError);
 }
 
 TEST(CsvText, numbers_read_back_to_the_same_bits) {

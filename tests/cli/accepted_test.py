@@ -62,7 +62,7 @@ class Accepted(CommandLine):
     def test_an_axis_has_one_value_at_a_point(self):
         self.write("a.toml", SMALL)
         self.clatter("run", "a.toml", "-q")
-        words = "--where nu=0.5 beside --where nu=1.0; an axis has one value at a point"
+        words = "--where nu=0.5 beside --where nu=1.0; a point has one value of it"
         self.assert_refused(2, words, "export", "a.h5", "--where", "nu=1.0", "--where", "nu=0.5")
         self.assert_refused(2, words, "certify", "a.h5", "--where", "nu=1.0", "--where", "nu=0.5")
 

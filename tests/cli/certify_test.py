@@ -258,9 +258,9 @@ range = [0.4, 1.4]
         for code, words, command in (
             (2, "--sample '0'; expected a whole number from 1 on", [path, "--sample", "0"]),
             (2, "--sample '-3'; expected a whole number from 1 on", [path, "--sample", "-3"]),
-            (2, "--where: 'h' is no axis of 'a.h5'; its axes are nu", [path, "--where", "h=1"]),
+            (2, "--where: 'h' is neither an axis nor a result of 'a.h5'; its axes are nu", [path, "--where", "h=1"]),
             (2, "--where nu=0.95: the axis has no such value; the nearest are ", [path, "--where", "nu=0.95"]),
-            (2, "expected AXIS=VALUE", [path, "--where", "nu"]),
+            (2, "expected e.g. nu=1.0", [path, "--where", "nu"]),
             (2, "is the input; name another file", [path, "-o", path]),
             (2, "'dopri5.h5' isn't of the exact method", ["dopri5.h5"]),
             (74, "No such file or directory", ["none.h5"]),

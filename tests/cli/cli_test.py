@@ -61,9 +61,9 @@ class WrongCommandLines(CommandLine):
             (["export"], "FILE.h5 is missing"),
             (["export", "a.h5", "--ony", "x"], "did you mean '--only'?"),
             (["export", "a.h5", "--only", "x_max,"], "--only 'x_max,' has an empty name"),
-            (["export", "a.h5", "--where", "nu"], "--where 'nu'; expected AXIS=VALUE, e.g. nu=1.0"),
-            (["export", "a.h5", "--where", "nu=one"], "--where 'nu=one': expected a number"),
-            (["export", "a.h5", "--where", "=1"], "--where '=1'; expected AXIS=VALUE"),
+            (["export", "a.h5", "--where", "nu"], "--where 'nu'; expected e.g. nu=1.0,"),
+            (["export", "a.h5", "--where", "nu=1one"], "unknown unit 'one'"),
+            (["export", "a.h5", "--where", "=1"], "--where '=1'; expected e.g. nu=1.0"),
             (["defaults", "toml"], "unexpected argument 'toml'"),
             (["defaults", "--in"], "unknown option '--in'; did you mean '--ini'?"),
         ]

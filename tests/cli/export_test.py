@@ -146,8 +146,8 @@ class Export(CommandLine):
             (path, "gap=3 foo", "--where 'gap=3 foo': unknown unit 'foo'"),
             (path, "gap=3 mm", "--where gap=0.003: the axis has no such value; the nearest are 0.002 and 0.0015"),
             (plain, "xs=0.5 mm", "the unit 'mm' doesn't fit: 'xs' in 'plain.h5' has none; give the number alone"),
-            (plain, "xs", "--where 'xs'; expected AXIS=VALUE, e.g. nu=1.0"),
-            (plain, "xs=a", "--where 'xs=a': expected a number, such as 0.5 or 2*pi, found 'a'; expected AXIS=VALUE"),
+            (plain, "xs", "--where 'xs'; expected e.g. nu=1.0,"),
+            (plain, "xs=a", "--where xs=a: 'xs' is a number; expected one"),
         ):
             self.assert_refused(2, words, "export", path, "--where", where)
 
@@ -219,7 +219,11 @@ class Export(CommandLine):
                 "'v_before[0]' is no component; there are v_before[-1], v_before[1]",
                 [path, "--only", "v_before[0]"],
             ),
-            (2, "--where: 'h' is no axis of 'a.h5'; its axes are nu, xs", [path, "--where", "h=1"]),
+            (
+                2,
+                "--where: 'h' is neither an axis nor a result of 'a.h5'; its axes are nu, xs",
+                [path, "--where", "h=1"],
+            ),
             (2, "--where nu=0.95: the axis has no such value; the nearest are ", [path, "--where", "nu=0.95"]),
             (2, "'plain.h5' has no impact log; run its configuration with --set", [plain, "--impacts"]),
             (2, "is the input; name another file", [path, "-o", path]),
