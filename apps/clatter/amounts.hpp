@@ -5,15 +5,22 @@
 #include <span>
 #include <string>
 
+#include "asked_units.hpp"
 #include "format.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::app {
 
-/// Numbers of one unit as text, all with the same prefix: lengths that are all below 0.1 m are in mm, as in pictures.
+/// Numbers of one unit as text, all with the same prefix: lengths that are all below 0.1 m are in mm, as in pictures,
+/// unless another unit is asked for.
 class Amounts {
  public:
-  Amounts(const std::string& units, std::span<const double> values) : unit_(storage::printable(unit_text(units))) {
+  Amounts(const std::string& units, std::span<const double> values, const AskedUnits& asked = {})
+      : unit_(storage::printable(unit_text(units))) {
+    if (const auto* const other = asked.of(units)) {
+      unit_ = storage::printable(other->name), scale_ = 1 / other->in_si;
+      return;
+    }
     constexpr double short_length = 0.1;  // m
     const auto is_short = [](double value) { return !(std::abs(value) >= short_length); };
     if (unit_ == "m" && std::ranges::all_of(values, is_short)) unit_ = "mm", scale_ = 1e3;

@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <span>
 #include <string_view>
-#include <type_traits>
 #include <variant>
 
 #include "config/suggestion.hpp"
@@ -26,16 +24,6 @@ constexpr std::array<std::string_view, 8> telling{"special_kind", "status", "sta
 
 bool is_in(const std::vector<results::NamedLength>& dimensions, const results::NamedLength& one) {
   return std::ranges::any_of(dimensions, [&](const results::NamedLength& other) { return are_same(one, other); });
-}
-
-/// One of a variable's values as a number; NaN of a text.
-double number_at(const results::ValueArray& values, std::size_t index) {
-  return std::visit(
-      [&]<class T>(const std::vector<T>& of_type) {
-        if constexpr (std::is_arithmetic_v<T>) return static_cast<double>(of_type[index]);
-        return std::nan("");
-      },
-      values);
 }
 
 std::size_t size_of(const results::Variable& variable) {
@@ -63,12 +51,12 @@ std::string word_at(const results::Variable& variable, std::size_t index) {
 }  // namespace
 
 Extremes::Extremes(const results::FileSummary& summary, const std::string& path, const std::string& name, bool largest,
-                   bool periodic)
+                   Choice choice)
     : summary_(summary),
       path_(path),
       named_(name),
       is_largest_(largest),
-      is_periodic_(periodic),
+      choice_(std::move(choice)),
       of_points_(dimensions_of_points(summary, path)),
       result_(&require_result(ComponentName(name).variable)) {
   for (const results::NamedLength& dimension : result_->dimensions) {
@@ -76,8 +64,15 @@ Extremes::Extremes(const results::FileSummary& summary, const std::string& path,
     (is_of_points ? places_ : parts_).push_back(dimension);
   }
   if (places_.empty() && !of_points_.empty()) places_.swap(parts_);  // of motions: each of them counts as a point
+  filter_.emplace(summary_, path_, places_, choice_.where);
   collect_variables();
-  if (is_periodic_ && std::ranges::find(words_, "status") == words_.end())
+  if (!choice_.for_axis.empty() && std::ranges::find(axes_, choice_.for_axis) == axes_.end()) {
+    const std::vector<std::string_view> axes(axes_.begin(), axes_.end());
+    throw ChoiceError(
+        "--for: " + config::in_quotes(choice_.for_axis) + " is no axis of " + storage::quoted_name(path_) +
+        (axes.empty() ? ", which has none" : config::suggestion(choice_.for_axis, axes, "; its axes are ")));
+  }
+  if (choice_.periodic && std::ranges::find(words_, "status") == words_.end())
     throw ChoiceError("--periodic: " + storage::quoted_name(path_) + " has no status beside " +
                       config::in_quotes(result_->name) + "; leave it out");
 }
@@ -126,8 +121,8 @@ void Extremes::collect_variables() {
   }
   for (const results::NamedLength& dimension : parts_)
     if (find_variable(summary_, dimension.name) != nullptr) names_.push_back(dimension.name);
-  for (const std::vector<std::string>* const more : {&axes_, &words_})
-    for (const std::string& name : *more)
+  for (const std::vector<std::string>& more : {axes_, words_, filter_->variables()})
+    for (const std::string& name : more)
       if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
 }
 
@@ -157,7 +152,7 @@ std::vector<bool> Extremes::wanted_parts(const results::Dataset& dataset) const 
 }
 
 bool Extremes::counts(steady::Status status) const {
-  if (is_periodic_) return status == steady::Status::periodic || status == steady::Status::grazing;
+  if (choice_.periodic) return status == steady::Status::periodic || status == steady::Status::grazing;
   return !failed(status);
 }
 
@@ -166,9 +161,11 @@ std::vector<Extremes::Candidate> Extremes::candidates(const results::Dataset& da
   const results::Variable& variable = variable_of(dataset, result_->name);
   const std::vector<bool> wanted = wanted_parts(dataset);
   const std::vector<std::uint8_t>* const status = results::values_of<std::uint8_t>(dataset, "status");
+  const std::vector<bool> is_chosen = filter_->chosen(dataset);
   std::vector<Candidate> found;
   for (std::size_t point = 0; point < points_of(places_); ++point) {
-    const bool is_counted = status == nullptr || counts(static_cast<steady::Status>((*status)[point]));
+    const bool is_counted =
+        is_chosen[point] && (status == nullptr || counts(static_cast<steady::Status>((*status)[point])));
     if (!is_counted) continue;
     Candidate best{point, wanted.size(), std::nan("")};
     for (std::size_t part = 0; part < wanted.size(); ++part) {
@@ -203,17 +200,36 @@ Extreme Extremes::described(const Candidate& candidate, const results::Dataset& 
   return extreme;
 }
 
-std::vector<Extreme> Extremes::of(const results::Dataset& dataset) const {
-  require_complete(dataset);
-  std::vector<Candidate> found = candidates(dataset);
+/// The best first; for each value of an axis the best one, in the order of the values.
+std::vector<Extremes::Candidate> Extremes::best_of(std::vector<Candidate> found) const {
   const auto is_better = [this](const Candidate& one, const Candidate& other) {
     if (one.value == other.value) return one.point < other.point;
     return is_largest_ ? one.value > other.value : one.value < other.value;
   };
-  const std::size_t count = std::min(most_extremes, found.size());
-  std::ranges::partial_sort(found, found.begin() + static_cast<std::ptrdiff_t>(count), is_better);
+  if (choice_.for_axis.empty()) {
+    const std::size_t count = std::min(most_extremes, found.size());
+    std::ranges::partial_sort(found, found.begin() + static_cast<std::ptrdiff_t>(count), is_better);
+    found.resize(count);
+    return found;
+  }
+  const results::NamedLength& own = find_variable(summary_, choice_.for_axis)->dimensions[0];
+  const auto dimension =
+      static_cast<std::size_t>(std::ranges::find(places_, own.name, &results::NamedLength::name) - places_.begin());
+  std::vector<std::optional<Candidate>> best(own.length);
+  for (const Candidate& candidate : found) {
+    std::optional<Candidate>& there = best[indexes_of(candidate.point, places_)[dimension]];
+    if (!there || is_better(candidate, *there)) there = candidate;
+  }
+  std::vector<Candidate> of_each;
+  for (const std::optional<Candidate>& one : best)
+    if (one) of_each.push_back(*one);
+  return of_each;
+}
+
+std::vector<Extreme> Extremes::of(const results::Dataset& dataset) const {
+  require_complete(dataset);
   std::vector<Extreme> extremes;
-  for (const Candidate& candidate : std::span(found).first(count)) extremes.push_back(described(candidate, dataset));
+  for (const Candidate& candidate : best_of(candidates(dataset))) extremes.push_back(described(candidate, dataset));
   return extremes;
 }
 

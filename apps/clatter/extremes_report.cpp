@@ -19,13 +19,15 @@ std::vector<double> values_of(const std::vector<Extreme>& points, const auto& va
 /// ", stop = 1", after " at" or a comma.
 void append(std::string& line, const std::string& words, bool is_first) { line += (is_first ? " at " : ", ") + words; }
 
-std::string line_of(const Extreme& point, const Extremes& extremes, const std::vector<Extreme>& points) {
-  const Amounts amounts(extremes.result().units, values_of(points, [](const Extreme& other) { return other.value; }));
+std::string line_of(const Extreme& point, const Extremes& extremes, const std::vector<Extreme>& points,
+                    const AskedUnits& asked) {
+  const Amounts amounts(extremes.result().units, values_of(points, [](const Extreme& other) { return other.value; }),
+                        asked);
   std::string line = "  " + amounts.text("%.6g", point.value);
   bool is_first = true;
   for (std::size_t i = 0; i < point.axes.size(); ++i) {
     const auto& [name, value, units] = point.axes[i];
-    const Amounts of_axis(units, values_of(points, [i](const Extreme& other) { return other.axes[i].value; }));
+    const Amounts of_axis(units, values_of(points, [i](const Extreme& other) { return other.axes[i].value; }), asked);
     append(line, name + " = " + of_axis.text("%.10g", value), std::exchange(is_first, false));
   }
   for (const auto& [name, value, units] : point.component)
@@ -36,12 +38,13 @@ std::string line_of(const Extreme& point, const Extremes& extremes, const std::v
 
 }  // namespace
 
-std::string extremes_text(const Extremes& extremes, const std::vector<Extreme>& points) {
+std::string extremes_text(const Extremes& extremes, const std::vector<Extreme>& points, const AskedUnits& asked) {
   const results::FileSummary::Entry& result = extremes.result();
   const std::string meaning = result.name + ", " + storage::printable(result.meaning());
   if (points.empty()) return "no point has a value of " + meaning + '\n';
-  std::string text = std::string(extremes.is_largest() ? "largest " : "smallest ") + meaning + '\n';
-  for (const Extreme& point : points) text += line_of(point, extremes, points);
+  const std::string each = extremes.for_axis().empty() ? "" : ", for each " + extremes.for_axis();
+  std::string text = std::string(extremes.is_largest() ? "largest " : "smallest ") + meaning + each + '\n';
+  for (const Extreme& point : points) text += line_of(point, extremes, points, asked);
   return text;
 }
 

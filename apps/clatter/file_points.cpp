@@ -112,6 +112,15 @@ std::vector<double> numbers_in(const results::ValueArray& values) {
   return numbers;
 }
 
+double number_at(const results::ValueArray& values, std::size_t index) {
+  return std::visit(
+      [&]<class T>(const std::vector<T>& of_type) {
+        if constexpr (std::is_arithmetic_v<T>) return static_cast<double>(of_type[index]);
+        return std::nan("");
+      },
+      values);
+}
+
 double same_on_axis(const std::vector<double>& values, double wanted) {
   const double extent = values.empty() ? 0.0 : std::ranges::max(values) - std::ranges::min(values);
   const double length = std::isfinite(extent) ? std::max(extent, std::abs(wanted)) : std::abs(wanted);

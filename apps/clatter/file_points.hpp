@@ -77,6 +77,9 @@ void advance(std::vector<std::size_t>& at, const std::vector<results::NamedLengt
 /// The values as double; none of texts.
 [[nodiscard]] std::vector<double> numbers_in(const results::ValueArray& values);
 
+/// One of a variable's values as a number; NaN of a text.
+[[nodiscard]] double number_at(const results::ValueArray& values, std::size_t index);
+
 /// How far a value of an axis may be from a wanted one to count as equal.
 [[nodiscard]] double same_on_axis(const std::vector<double>& values, double wanted);
 

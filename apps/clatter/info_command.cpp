@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
+#include "asked_units.hpp"
 #include "commands.hpp"
 #include "config/keys.hpp"
 #include "config/wrapped.hpp"
@@ -13,11 +15,15 @@
 #include "outputs/output_summary.hpp"
 #include "per_period.hpp"
 #include "quantiles.hpp"
+#include "ranges_report.hpp"
+#include "refined_ranges.hpp"
 #include "result_catalogue.hpp"
 #include "result_help.hpp"
 #include "results/dataset_file.hpp"
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
+#include "table_options.hpp"
+#include "told_motions.hpp"
 
 namespace clatter::app {
 namespace {
@@ -72,7 +78,8 @@ results::FileSummary harmless(results::FileSummary summary) {
 }
 
 /// Prints a summary for people; scripts use --json.
-void print_text(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles, bool with_notes) {
+void print_text(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles, bool with_notes,
+                const AskedUnits& asked) {
   for (const auto& [name, value] : summary.attributes) {
     if (name != "config" && name != "scene_names") std::cout << column(name, 16) << value << '\n';
   }
@@ -80,7 +87,7 @@ void print_text(const results::FileSummary& summary, const std::vector<Quantiles
   print_variables(summary, with_notes);
   if (!summary.status_counts.empty()) std::cout << "\nBy status\n";
   for (const auto& [meaning, count] : summary.status_counts) std::cout << "  " << column(meaning, 12) << count << '\n';
-  std::cout << quantiles_text(summary, quantiles);
+  std::cout << quantiles_text(summary, quantiles, asked);
 }
 
 /// Prints the configuration unchanged, so that it runs again; on a terminal control characters are made printable.
@@ -95,52 +102,92 @@ void print_config(const std::string& path, const results::FileSummary& summary) 
 
 /// Prints the points at which a result is largest, or smallest.
 void print_extremes(const results::FileSummary& summary, const std::string& path, const std::string& name,
-                    const Arguments& arguments) try {
-  const bool as_json = arguments.has("json");
+                    const Arguments& arguments) {
   const Compared compared(summary, path);
-  const Extremes extremes(compared.summary(), path, name, arguments.has("max"), arguments.has("periodic"));
+  const Extremes extremes(compared.summary(), path, name, arguments.has("max"),
+                          {.periodic = arguments.has("periodic"),
+                           .where = conditions_of(arguments),
+                           .for_axis = arguments.value("for").value_or("")});
   const std::vector<Extreme> points = extremes.of(compared.read(extremes.variables()));
-  std::cout << (as_json ? extremes_json(extremes, points) : extremes_text(extremes, points));
-} catch (const ChoiceError& error) {
-  throw UsageError(error.what());
+  const AskedUnits asked(arguments.values("in"), summary, path);
+  std::cout << (arguments.has("json") ? extremes_json(extremes, points) : extremes_text(extremes, points, asked));
 }
 
-/// The option that says what to print; empty: none. Only --json goes with others: with --max and --min.
+/// Prints from where to where a result keeps its word, or points meet conditions.
+void print_ranges(const results::FileSummary& summary, const std::string& path, const Arguments& arguments) {
+  const Compared compared(summary, path);
+  const Ranges ranges(compared.summary(), path,
+                      {.result = arguments.value("ranges").value_or(""),
+                       .where = conditions_of(arguments),
+                       .along = arguments.value("along").value_or("")});
+  const results::Dataset dataset = compared.read(ranges.variables());
+  std::vector<RangeLine> lines = ranges.of(dataset);
+  const std::optional<Met> met = arguments.has("where") ? std::optional(ranges.met(dataset)) : std::nullopt;
+  if (arguments.has("refine")) refine(lines, ranges, summary, path);
+  const AskedUnits asked(arguments.values("in"), summary, path);
+  std::cout << (arguments.has("json") ? ranges_json(ranges, lines, met) : ranges_text(ranges, lines, met, asked));
+}
+
+/// The option that says what to print; empty: none. Only --json goes with others: with --max, --min and ranges.
 std::string chosen_print(const Arguments& arguments) {
   std::string chosen;
-  for (const char* const option : {"max", "min", "json", "config", "check", "verbose"}) {
-    const bool refines = std::string_view(option) == "json" && (chosen == "max" || chosen == "min");
+  for (const char* const option : {"max", "min", "ranges", "json", "config", "check", "verbose"}) {
+    const bool refines = std::string_view(option) == "json" && !chosen.empty();
     if (!arguments.has(option) || refines) continue;
     if (!chosen.empty()) throw UsageError("--" + chosen + " conflicts with --" + option + "; give one of them");
     chosen = option;
   }
-  return chosen;
+  const bool asks_for_ranges = arguments.has("where") && (chosen.empty() || chosen == "json");
+  return asks_for_ranges ? "ranges" : chosen;
 }
 
-int print_info(const Arguments& arguments) {
+/// Throws UsageError at an option that says nothing beside what is printed.
+void require_use(const Arguments& arguments, const std::string& chosen) {
+  const bool is_of_points = chosen == "max" || chosen == "min", is_of_ranges = chosen == "ranges";
+  const auto need = [&](const char* option, bool holds, const std::string& way_out) {
+    if (arguments.has(option) && !holds) throw UsageError("--" + std::string(option) + " without " + way_out);
+  };
+  need("periodic", is_of_points, "--max or --min; it chooses among their points");
+  need("for", is_of_points, "--max or --min; it gives their points for each value of an axis");
+  need("where", is_of_points || is_of_ranges, "--max, --min or --ranges, or alone; it chooses points");
+  need("along", is_of_ranges, "--ranges or --where; it names the axis of their ranges");
+  need("refine", is_of_ranges, "--ranges or --where; it sharpens the ends of their ranges");
+  const bool is_for_people = !arguments.has("json") && chosen != "config" && chosen != "check";
+  need("in", is_for_people, "text for people; JSON and configurations have the units of the file");
+}
+
+int print_info(const Arguments& arguments) try {
   const std::string chosen = chosen_print(arguments);
-  if (arguments.has("periodic") && chosen != "max" && chosen != "min")
-    throw UsageError("--periodic without --max or --min; it chooses among their points");
+  require_use(arguments, chosen);
   const std::string& path = arguments.operands[0];
   const results::FileSummary summary = outputs::read_summary(path);
   if (chosen == "max" || chosen == "min") {
     print_extremes(summary, path, *arguments.value(chosen), arguments);
+  } else if (chosen == "ranges") {
+    print_ranges(summary, path, arguments);
   } else if (chosen == "check") {
     results::require_readable(summary, path);
   } else if (chosen == "config") {
     print_config(path, summary);
   } else if (chosen == "json") {
-    std::cout << summary_json(summary, quantiles_of(summary, path));
+    std::cout << summary_json(summary, quantiles_of(summary, path), motions_of(summary, path));
   } else {
-    print_text(harmless(summary), quantiles_of(summary, path), chosen == "verbose");
+    const AskedUnits asked(arguments.values("in"), summary, path);
+    print_text(harmless(summary), quantiles_of(summary, path), chosen == "verbose", asked);
+    std::cout << motions_text(motions_of(summary, path), asked);
   }
   return done;
+} catch (const ChoiceError& error) {
+  throw UsageError(error.what());
 }
 
 constexpr std::string_view examples =
     "  clatter info fig22.h5\n"
     "  clatter info fig22.h5 --max impact_speed\n"
     "  clatter info fig22.h5 --max impact_speed --periodic\n"
+    "  clatter info map.h5 --max impact_speed --for xs --where 'nu < 1.2'\n"
+    "  clatter info fig22.h5 --ranges impact_word --refine\n"
+    "  clatter info drive.h5 --where 'impact_speed < 0.4 m/s' --in rpm\n"
     "  clatter info fig22.h5 --config > again.toml\n"
     "  clatter info --check fig22.h5 && echo sound\n";
 
@@ -157,8 +204,19 @@ Command info_command() {
                        "print the five points at which this result, or component as v_before[-1], is largest"},
                       {"min", 0, "NAME", "print those at which it is smallest"},
                       {"periodic", 0, "", "with --max or --min: of points with periodic motion alone"},
+                      {"for", 0, "AXIS", "with --max or --min: the best point for each value of this axis"},
+                      {"ranges", 0, "NAME",
+                       "print from where to where along an axis this result, a name or a count, stays the same"},
+                      {"where", 0, "CONDITION",
+                       "print the ranges and the share of points that meet this, e.g. 'impact_speed < 0.4 m/s'; with "
+                       "the others: of these points alone; repeatable",
+                       true},
+                      {"along", 0, "AXIS", "with --ranges or --where: the axis; default: the longest"},
+                      {"refine", 0, "",
+                       "with --ranges or --where: sharpen the ends by running the scene between the points"},
+                      {"in", 0, "UNIT", "print numbers of its kind in this unit, e.g. rpm; repeatable", true},
                       {"verbose", 'v', "", "print also when each result is NaN, and what asks for it"},
-                      {"json", 0, "", "print JSON, also of --max and --min"},
+                      {"json", 0, "", "print JSON, also of --max, --min, --ranges and --where"},
                       {"config", 0, "", "print the configuration that made the file, which can be run again"},
                       {"check", 0, "", "print nothing, but read all values: the exit code is 0 if none is damaged"},
                       {"help", 'h', "", "print this help"}},

@@ -7,6 +7,7 @@
 #include "branches/measures/measures.hpp"
 #include "format.hpp"
 #include "plan_report.hpp"
+#include "sweep/binomial_share.hpp"
 
 namespace clatter::app {
 namespace {
@@ -75,9 +76,16 @@ Json entry_json(const results::FileSummary::Entry& entry) {
   return json;
 }
 
+Json numbers_json(const std::vector<Whereabouts>& named) {
+  Json json = Json::object();
+  for (const auto& [name, value, units] : named) json[name] = value;
+  return json;
+}
+
 }  // namespace
 
-std::string summary_json(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles) {
+std::string summary_json(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles,
+                         const ToldMotions& motions) {
   Json attributes = Json::object(), variables = Json::array(), status = Json::object();
   for (const auto& [name, text] : summary.attributes) attributes[name] = text;
   for (const results::FileSummary::Entry& entry : summary.variables) variables.push_back(entry_json(entry));
@@ -90,18 +98,44 @@ std::string summary_json(const results::FileSummary& summary, const std::vector<
     own = {{"points", of_result.points}, {"units", of_result.units}, {"at", values}};
     if (!of_result.per.empty()) own["per"] = "forcing period";
   }
+  for (const ToldMotion& motion : motions.motions)
+    json["motions"].push_back({{"word", motion.word},
+                               {"period_ratio", motion.period},
+                               {"points", motion.points},
+                               {"share", static_cast<double>(motion.points) / static_cast<double>(motions.points)},
+                               {"impact_speed", motion.speed}});
+  return text_of(json, in_lines);
+}
+
+std::string ranges_json(const Ranges& ranges, const std::vector<RangeLine>& lines, const std::optional<Met>& met) {
+  Json json{{"result", ranges.result() != nullptr ? entry_json(*ranges.result()) : Json()}, {"where", Json::array()}};
+  for (const Condition& condition : ranges.choice().where) json["where"].push_back(text_of(condition));
+  if (met) {
+    json["points"] = met->points, json["of"] = met->of;
+    json["failed"] = met->failed, json["without_value"] = met->without_value;
+    if (met->of > 0) {
+      const sweep::BinomialShare share = sweep::binomial_share(met->points, met->of);
+      json["share"] = share.share;
+      json["interval"] = ranges.is_sample() ? Json{share.low, share.high} : Json();
+    }
+  }
+  json["lines"] = Json::array();
+  for (const RangeLine& line : lines) {
+    Json of_line = Json::array();
+    for (const Range& range : line.ranges)
+      of_line.push_back({{"word", ranges.result() != nullptr ? Json(range.word) : Json()},
+                         {"from", numbers_json(range.from)},
+                         {"to", numbers_json(range.to)},
+                         {"points", range.points}});
+    json["lines"].push_back({{"at", numbers_json(line.at)}, {"ranges", of_line}});
+  }
   return text_of(json, in_lines);
 }
 
 std::string extremes_json(const Extremes& extremes, const std::vector<Extreme>& points) {
-  const auto numbers = [](const std::vector<Whereabouts>& named) {
-    Json json = Json::object();
-    for (const auto& [name, value, units] : named) json[name] = value;
-    return json;
-  };
   Json list = Json::array();
   for (const Extreme& point : points) {
-    Json json{{"value", point.value}, {"at", numbers(point.axes)}, {"component", numbers(point.component)}};
+    Json json{{"value", point.value}, {"at", numbers_json(point.axes)}, {"component", numbers_json(point.component)}};
     for (const auto& [name, word] : point.words) json[name] = word;
     list.push_back(json);
   }

@@ -11,7 +11,9 @@
 #include "extremes.hpp"
 #include "plan/plan.hpp"
 #include "quantiles.hpp"
+#include "ranges.hpp"
 #include "results/dataset_file.hpp"
+#include "told_motions.hpp"
 
 namespace clatter::app {
 
@@ -19,8 +21,14 @@ namespace clatter::app {
 // among them, and bytes that aren't UTF-8 become U+FFFD. A number that isn't finite is null.
 
 /// The summary of a file: attributes, variables with their dimensions, number of points by status, and of a sample the
-/// quantiles of its results.
-[[nodiscard]] std::string summary_json(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles);
+/// quantiles of its results, of starts the motions that they end in.
+[[nodiscard]] std::string summary_json(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles,
+                                       const ToldMotions& motions);
+
+/// Ranges of a result, or of points that meet conditions: for each value of the other axes where they begin and end,
+/// and how many points meet the conditions, with their share and its 95 % interval.
+[[nodiscard]] std::string ranges_json(const Ranges& ranges, const std::vector<RangeLine>& lines,
+                                      const std::optional<Met>& met);
 
 /// The points at which a result of a file is largest, or smallest, the best first: for each its value, its axes, which
 /// component of the result, and the words for its motion.

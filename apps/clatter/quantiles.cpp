@@ -11,6 +11,7 @@
 #include "file_points.hpp"
 #include "format.hpp"
 #include "per_period.hpp"
+#include "point_filter.hpp"
 #include "steady/status.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
@@ -58,6 +59,13 @@ std::vector<double> known_values(const std::vector<double>& values, std::size_t 
   return known;
 }
 
+/// The largest component of each point.
+std::vector<double> harder_of(const std::vector<double>& values, std::size_t width) {
+  std::vector<double> harder(values.size() / width, std::nan(""));
+  for (std::size_t i = 0; i < values.size(); ++i) harder[i / width] = std::fmax(harder[i / width], values[i]);
+  return harder;
+}
+
 }  // namespace
 
 std::vector<std::string> sampled_axes(const results::FileSummary& summary) {
@@ -95,6 +103,8 @@ std::vector<Quantiles> quantiles_of(const results::FileSummary& summary, const s
     if (status == nullptr || values == nullptr || values->size() != status->size() * width)
       storage::refuse_reading(path, "is damaged: " + config::in_quotes(entry->name) + " has another length",
                               "run its configuration again");
+    if (width > 1 && has_harder_stop(entry->name))
+      all.push_back(of_values(entry->name, entry->units, known_values(harder_of(*values, width), 0, 1, *status)));
     for (std::size_t part = 0; part < width; ++part) {
       const std::string name = entry->dimensions.size() == 1
                                    ? entry->name
@@ -106,7 +116,8 @@ std::vector<Quantiles> quantiles_of(const results::FileSummary& summary, const s
   return all;
 }
 
-std::string quantiles_text(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles) {
+std::string quantiles_text(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles,
+                           const AskedUnits& asked) {
   const std::vector<std::string> axes = sampled_axes(summary);
   if (axes.empty()) return {};
   std::string over;
@@ -123,7 +134,7 @@ std::string quantiles_text(const results::FileSummary& summary, const std::vecto
   text += '\n';
   for (const auto& [result, units, per, points, values] : quantiles) {
     if (points == 0) continue;
-    const Amounts amounts(units, values);
+    const Amounts amounts(units, values, asked);
     std::string name = "  " + storage::printable(result);
     name.resize(std::max(name.size(), name_width + 2), ' ');
     text += name;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asked_units.hpp"
 #include "results/dataset_file.hpp"
 
 namespace clatter::app {
@@ -31,6 +32,7 @@ struct Quantiles {
 
 /// The quantiles as a table, a line a result: "Quantiles over R, gap"; why there are none if the file has a sample and
 /// other axes; empty without a sample.
-[[nodiscard]] std::string quantiles_text(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles);
+[[nodiscard]] std::string quantiles_text(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles,
+                                         const AskedUnits& asked);
 
 }  // namespace clatter::app

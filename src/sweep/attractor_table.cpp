@@ -1,7 +1,6 @@
 #include "sweep/attractor_table.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -9,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "sweep/binomial_share.hpp"
 #include "sweep/dataset_axes.hpp"
 #include "sweep/parallel.hpp"
 #include "sweep/share.hpp"
@@ -48,28 +48,21 @@ void for_each(std::size_t count, int threads, const std::function<void(std::size
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Shares of starts and their 95 % intervals.
+/// Shares of starts and their 95 % intervals, each computed once.
 class Shares {
  public:
   explicit Shares(std::size_t starts) : starts_(starts) {}
 
-  struct Share {
-    double share, low, high;
-  };
-  /// The share of `points` starts, and its interval by Clopper & Pearson.
-  const Share& of(std::size_t points) {
+  /// The share of `points` starts.
+  const BinomialShare& of(std::size_t points) {
     const auto [found, is_new] = known_.try_emplace(points);
-    if (!is_new) return found->second;
-    using Binomial = boost::math::binomial_distribution<>;
-    constexpr double beyond = 0.05 / 2;  // on each side
-    const auto trials = static_cast<double>(starts_), successes = static_cast<double>(points);
-    return found->second = {successes / trials, Binomial::find_lower_bound_on_p(trials, successes, beyond),
-                            Binomial::find_upper_bound_on_p(trials, successes, beyond)};
+    if (is_new) found->second = binomial_share(points, starts_);
+    return found->second;
   }
 
  private:
   std::size_t starts_;
-  std::map<std::size_t, Share> known_;
+  std::map<std::size_t, BinomialShare> known_;
 };
 
 /// Points by ensemble and motion.
@@ -111,7 +104,7 @@ void add_counts(const Sweep& sweep, const attractors::Grid& grid, const attracto
   std::vector<double> shares(counts.size()), low(counts.size()), high(counts.size());
   Shares of_starts(grid.starts());
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const Shares::Share& share = of_starts.of(counts[i]);
+    const BinomialShare& share = of_starts.of(counts[i]);
     shares[i] = share.share, low[i] = share.low, high[i] = share.high;
   }
   along.emplace_back("motion");

@@ -65,7 +65,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/branches/walk/walk.cpp",
         "src/observables/bracketed_root.cpp",
         "src/observables/quadrature.cpp",
-        "src/sweep/attractor_table.cpp",
+        "src/sweep/binomial_share.cpp",
     },
     r"boost/random": {"src/config/axis_functions.cpp"},
     r"boost/program_options": {
