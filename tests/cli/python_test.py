@@ -141,6 +141,24 @@ class Module(CommandLine):
             self.assertIn("clatter/reports/page.css", package)
             self.assertEqual(commands[1::3], ["clatter-plot", "clatter-report"])
 
+    def test_the_package_installs_in_an_environment_beside_the_libraries_of_the_system(self):
+        """As scripts/README.md says for Debian, whose h5py pip doesn't see; nothing is downloaded."""
+        with tempfile.TemporaryDirectory() as folder:
+            sources, environment = Path(folder) / "scripts", Path(folder) / "venv"
+            shutil.copytree(SOURCE / "scripts", sources, ignore=shutil.ignore_patterns("__pycache__"))
+            made = subprocess.run(["/usr/bin/python3", "-m", "venv", "--system-site-packages", environment])
+            self.assertEqual(made.returncode, 0)
+            pip = [environment / "bin/pip", "install", "-q", "--no-deps", "--no-build-isolation", "--no-index", sources]
+            installed = subprocess.run(pip, capture_output=True, text=True)
+            self.assertEqual(installed.returncode, 0, installed.stderr)
+            code = "import clatter; print(clatter.run({'scene': {'xs': 1}, 'observe': {'extrema': True}}).x_max.item())"
+            python = {"PATH": "/usr/bin:/bin", "CLATTER": CLATTER, "HOME": folder}
+            ran = subprocess.run([environment / "bin/python", "-c", code], env=python, capture_output=True, text=True)
+            self.assertEqual((ran.returncode, float(ran.stdout)), (0, 0.0), ran.stderr)
+            for command in ("clatter-plot", "clatter-report"):
+                helped = subprocess.run([environment / "bin" / command, "--help"], capture_output=True, text=True)
+                self.assertEqual(helped.returncode, 0, helped.stderr)
+
 
 class Pictures(CommandLine):
     """clatter.plot and clatter.report, of an output of three points."""
