@@ -35,20 +35,23 @@ MotionRows::MotionRows(const results::FileSummary& summary, const std::string& p
   const auto *const shares = find_variable(summary, "motion_share"), *const words =
                                                                          find_variable(summary, "motion_points");
   const auto* const numbers = results::values_of<std::int32_t>(dataset, "attractor");
-  if (numbers == nullptr || numbers->size() != points_of(rows) || words == nullptr) refuse();
-  numbers_ = *numbers, motions_ = words->dimensions.back().length;
+  const bool is_sound = numbers != nullptr && numbers->size() == points_of(rows) && words != nullptr &&
+                        words->dimensions.size() == 1 && words->dimensions[0].name == ended_motions;
+  if (!is_sound) refuse();
+  numbers_ = *numbers, motions_ = words->dimensions[0].length;
   std::vector<bool> is_parameter;
   for (const results::NamedLength& row : rows)
     is_parameter.push_back(shares != nullptr && std::ranges::any_of(shares->dimensions, [&](const auto& own) {
                              return are_same(own, row);
                            }));
+  for (std::size_t d = 0; d < rows.size(); ++d) values_ *= is_parameter[d] ? rows[d].length : 1;
+  if (shares != nullptr && points_of(shares->dimensions) != values_ * motions_) refuse();
   parameters_.resize(numbers_.size());
   std::vector<std::size_t> at(rows.size(), 0);
   for (std::size_t point = 0; point < numbers_.size(); ++point, advance(at, rows)) {
     if (numbers_[point] >= static_cast<std::int64_t>(motions_)) refuse();
     for (std::size_t d = 0; d < rows.size(); ++d)
       if (is_parameter[d]) parameters_[point] = parameters_[point] * rows[d].length + at[d];
-    values_ = std::max(values_, parameters_[point] + 1);
   }
 }
 

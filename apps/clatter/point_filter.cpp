@@ -145,11 +145,12 @@ std::optional<PointFilter::Layout> PointFilter::layout_of(const Entry& entry) co
   for (const results::NamedLength& row : rows_)
     if (along.size() == 1 && are_same(along[0], row)) {
       const std::vector<std::string> axes = coordinates_along(summary_, row);
-      return std::ranges::find(axes, entry.name) != axes.end() ? Layout::axis : Layout::result;
+      const bool is_axis = entry.type != "string" && std::ranges::find(axes, entry.name) != axes.end();
+      return is_axis ? Layout::axis : Layout::result;
     }
   const bool is_over_rows =
       along.size() == rows_.size() + 1 && std::equal(rows_.begin(), rows_.end(), along.begin(), are_same);
-  return is_over_rows ? std::optional(Layout::components) : std::nullopt;
+  return is_over_rows && entry.type != "string" ? std::optional(Layout::components) : std::nullopt;
 }
 
 void PointFilter::refuse(const std::string& name) const {
@@ -216,7 +217,7 @@ std::vector<double> PointFilter::of_components(const Compared& asked, const resu
   const std::string option = "--where " + text_of(asked.condition) + ": ", &name = asked.entry->name;
   if (!named && !has_harder_stop(name))
     throw ChoiceError(option + "which component? There are " + component_names(dataset, name, along));
-  std::vector<double> numbers(all.size() / std::max<std::size_t>(along.length, 1), std::nan(""));
+  std::vector<double> numbers(points_of(rows_), std::nan(""));
   bool is_known = !named;
   for (std::size_t part = 0; part < along.length; ++part) {
     if (named && component_name(dataset, along.name, part) != *named) continue;

@@ -54,6 +54,8 @@ Ranges::Ranges(const results::FileSummary& summary, const std::string& path, Ran
   if (holds_accuracy(summary_))
     throw ChoiceError(storage::quoted_name(path_) +
                       " holds what accuracy costs; ranges are of `clatter run` and branch");
+  if (holds_branches(summary_) && find_variable(summary_, "branch") == nullptr)
+    storage::refuse_reading(path_, "is damaged: it has no 'branch'", "follow its configuration again");
   along_ = dimension_along();
   const auto need = [&](const std::string& name) {
     if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
@@ -175,7 +177,8 @@ std::vector<std::size_t> Ranges::order_along(const results::Dataset& dataset) co
   const std::vector<std::string> axes = coordinates_along(summary_, rows_[along_]);
   if (holds_branches(summary_) || axes.empty()) return order;
   const std::vector<double> values = numbers_in(variable_of(dataset, axes.front()).values);
-  if (!std::ranges::is_sorted(values) && !std::ranges::is_sorted(values, std::greater{}))
+  if (values.size() == order.size() && !std::ranges::is_sorted(values) &&
+      !std::ranges::is_sorted(values, std::greater{}))
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
   return order;
 }
@@ -195,7 +198,8 @@ std::vector<Whereabouts> Ranges::others(std::size_t point, const results::Datase
 bool Ranges::turns(const std::vector<std::size_t>& points, std::size_t i, const results::Dataset& dataset) const {
   if (!holds_branches(summary_) || i < 2) return false;
   const auto at = [&](std::size_t k) {
-    return coordinates(along_, index_along(points[k], along_), dataset).front().value;
+    const std::vector<Whereabouts> there = coordinates(along_, index_along(points[k], along_), dataset);
+    return there.empty() ? 0.0 : there.front().value;
   };
   return (at(i) - at(i - 1)) * (at(i - 1) - at(i - 2)) < 0;
 }
@@ -250,9 +254,10 @@ std::vector<RangeLine> Ranges::of(const results::Dataset& dataset) const {
       lines.push_back({others(begin, dataset), {}});
       if (!points.empty()) lines.back().ranges.push_back(extent(points, dataset));
     } else if (holds_branches(summary_)) {
-      const std::vector<double> branch = numbers_in(variable_of(dataset, "branch").values);
+      const results::ValueArray& branch = variable_of(dataset, "branch").values;
       for (auto rest = points.begin(); rest != points.end();) {
-        const auto end = std::find_if(rest, points.end(), [&](std::size_t p) { return branch[p] != branch[*rest]; });
+        const auto end = std::find_if(rest, points.end(),
+                                      [&](std::size_t p) { return number_at(branch, p) != number_at(branch, *rest); });
         add_line({rest, end}, of_points, dataset, lines);
         rest = end;
       }

@@ -11,7 +11,7 @@
 #include "file_points.hpp"
 #include "lanes/instruction_set.hpp"
 #include "outputs/output_summary.hpp"
-#include "storage/utf8.hpp"
+#include "storage/input_file.hpp"
 #include "sweep/run.hpp"
 
 namespace clatter::app {
@@ -113,6 +113,9 @@ void require_points_of_their_own(const Ranges& ranges, const results::FileSummar
   const auto* const result = ranges.result();
   if (result != nullptr && (result->name == "attractor" || result->name == "motion_count"))
     throw ChoiceError("--refine: numbers of motions depend on all points; leave it out, or name e.g. impact_word");
+  if (points_of(dimensions_of_points(summary, path)) != size(outputs::config_of_output(summary, path).sweep))
+    storage::refuse_reading(path, "is damaged: its points aren't those of its configuration",
+                            "run its configuration again");
   if (ranges.is_sample()) throw ChoiceError("--refine: a sample has no ends to move; leave it out");
 }
 

@@ -241,6 +241,7 @@ class From(BranchRuns):
             (2, "--from 'run.h5' scene.nu=1.2: scene.nu beside machine.mass", "branch", "machine.toml", *place),
             (2, "none.toml: no branch.along and branch.range", "branch", "none.toml", *place),
             (2, "run.h5: no branch.along and branch.range", "branch", *place),
+            (2, "has no point that meets all of --where", "branch", "a.toml", *place, "--where", "period_ratio > 99"),
             (2, "outside branch.range", "branch", "a.toml", *place, "--set", "branch.range=1.3, 1.5"),
             (2, "is the one of --from", "branch", "a.toml", *place, "-o", "run.h5"),
             (74, "'nothing.h5'", "branch", "a.toml", "--from", "nothing.h5"),

@@ -135,6 +135,20 @@ class Rows(CommandLine):
             self.assertEqual(list(some[0]), ["nu", "x0", "v0", "motion_share", "motion_word"])
             self.assertEqual(len(some), sum(value == 1.4 for value, *_ in expected))
 
+    def test_files_that_contradict_themselves_are_refused(self):
+        self.made(STARTS).close()
+        for name, change in (("attractor", 99), ("motion_share", None), ("motion_points", None)):
+            self.made(STARTS).close()
+            with h5py.File(self.directory / "a.h5", "r+") as file:
+                if change is not None:
+                    file[name][0, 0, 0] = change
+                else:
+                    shorter = file[name][..., :1]
+                    del file[name]
+                    file.create_dataset(name, data=shorter)
+            done = self.clatter("export", "a.h5", "--motions")
+            self.assertEqual((done.returncode, done.stdout), (74, ""), (name, done.stderr))
+
     def test_special_points_of_a_branch_are_chosen_by_its_number(self):
         with self.made((SOURCE / "configs" / "branch.toml").read_text(encoding="utf-8"), "branch") as file:
             meeting = file["special_branch"][()]
