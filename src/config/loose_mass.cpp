@@ -102,6 +102,11 @@ void check_followed(const Settings& settings) {
 
 /// Keys that don't know a loose mass.
 void check_uses(const Settings& settings) {
+  if (const Setting* const rests = settings.find("observe", "time_to_rest");
+      rests != nullptr && settings.flag("observe", "time_to_rest"))
+    refuse(rests->key_location, "'time_to_rest'",
+           "the main mass has neither stops nor friction that hold it; take word = true, which says which wall presses "
+           "the loose mass");
   check_followed(settings);
   if (const Setting* const across = settings.find("branch", "across"); across != nullptr)
     refuse(across->key_location, "'across'", "leave it and curve out, and follow branches at several values of it");

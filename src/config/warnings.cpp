@@ -258,6 +258,7 @@ constexpr Rule rules[] = {
      "write harmonics_method = \"fft\""},
     {"observe", "settling", transient, in_transient, or_steady},
     {"observe", "settling", unforced, no_force, or_force},
+    {"observe", "time_to_rest", steady, "without mode = \"transient\"", "write that in [time]"},
     {"observe", "attractor", transient, in_transient, or_steady},
     {"observe", "section", is_damped_out, damped_out, or_drive},
     {"observe", "section", is_rubbed_out, rubbed_out, or_drive},

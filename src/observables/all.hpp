@@ -13,6 +13,7 @@
 #include "observables/sensitivity.hpp"
 #include "observables/settling.hpp"
 #include "observables/stability.hpp"
+#include "observables/time_to_rest.hpp"
 #include "observables/trajectory.hpp"
 
 namespace clatter::observables {
@@ -20,7 +21,7 @@ namespace clatter::observables {
 /// Every observable, in the order of keys and results. Configuration keys, help, observers, results, plan and memory
 /// are made from this list.
 using All = ObservableList<Extrema, Harmonics, Impacts, ImpactLog, Trajectory, Section, ImpactWord, Period, Stability,
-                           Energy, Sensitivity, Settling, Attractor>;
+                           Energy, Sensitivity, Settling, TimeToRest, Attractor>;
 
 /// The observables that are computed and stored; nothing else is.
 struct Observe : All::Settings {

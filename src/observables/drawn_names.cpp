@@ -109,6 +109,7 @@ constexpr NamedVariable names[] = {
     {"symmetric", {"symmetric motion", ""}},
     {"attractor", {"motion", ""}},
     {"settling_periods", {"periods until settled", ""}},
+    {"time_to_rest", {"time to rest", "$\\tau_0$"}, Name{"time to rest", "$t_0$"}},
     {"work_in", {"work of force and load", "work"}},
     {"loss_damping", {"loss by damping", "damping"}},
     {"loss_friction", {"loss by friction", "friction"}},

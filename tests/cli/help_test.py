@@ -105,7 +105,7 @@ class Help(CommandLine):
 
     def test_the_guide_of_configurations_holds_their_reference(self):
         reference = self.page("help", "configuration")
-        self.assertIn(reference.strip(), (SOURCE / "configs" / "README.md").read_text(encoding="utf-8"))
+        self.assertIn(reference.strip(), (SOURCE / "configs" / "reference" / "README.md").read_text(encoding="utf-8"))
 
     def test_the_citation_is_that_of_the_citation_file(self):
         file = (SOURCE / "CITATION.cff").read_text(encoding="utf-8")

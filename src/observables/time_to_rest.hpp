@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "motion/state.hpp"
+#include "observables/observable.hpp"
+
+namespace clatter::observables {
+
+/// The time from which on a stop or dry friction holds the mass for good; of transients. A mass at rest that no force
+/// moves stays there, and so does one that the force doesn't move in a whole period of its own.
+struct TimeToRest {
+  struct Settings {
+    bool time_to_rest = false;
+  };
+  struct Values {
+    double time_to_rest = no_value;  ///< tau; NaN: steady motion, or it isn't at rest for good at its end
+  };
+  static constexpr std::string_view transient = "[time]\nmode = \"transient\"\nduration = 63.0\n\n[observe]\n";
+  static constexpr std::tuple fields{
+      Field{with(transient, Key{"observe", "time_to_rest", Kind::flag, "false", "true",
+                                "transient: time after which a stop or dry friction holds the mass for good"}),
+            &Settings::time_to_rest}};
+
+  [[nodiscard]] static bool wanted(const Settings& settings) { return settings.time_to_rest; }
+  [[nodiscard]] static std::string description(const Settings&) { return "time to rest"; }
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+    return {missing_if(
+        "it is no transient, or the mass isn't at rest for good at its end: with a force it must have "
+        "rested for a forcing period",
+        scalar("time_to_rest", "time after which the mass rests for good", &Values::time_to_rest, Quantity::time))};
+  }
+
+  class Observer;
+};
+
+class TimeToRest::Observer {
+ public:
+  Observer(const Settings&, const ObservedSpan&) {}
+
+  template <class A>
+  void arc(const A&, double, double length) {
+    if (length > 0) since_.reset();
+  }
+  /// What isn't held is the end of a chatter, which is motion, or a force that is too low to be told from rest.
+  void rest(const motion::Rest& rest) {
+    if (!rest.held && !since_) return;
+    if (!since_) since_ = rest.time;
+    until_ = rest.time + rest.length;
+  }
+  void impact(const motion::Impact&) { since_.reset(); }
+  void touch(const motion::Touch&) { since_.reset(); }
+  /// The steady response moves.
+  bool response(const ObservedSpan&, double) { return true; }
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
+    constexpr double rounding = 1e-9;
+    if (!span.transient || !since_ || until_ < span.total * (1 - rounding)) return {};
+    const double period = span.scene.oscillator.forcing != 0 ? span.total / span.turns : 0.0;
+    const bool is_for_good = until_ - *since_ >= period * (1 - rounding) && (period > 0 || until_ > *since_);
+    return {is_for_good ? *since_ : no_value};
+  }
+
+ private:
+  std::optional<double> since_{};  ///< the beginning of the rest that goes on; nothing: the mass moves
+  double until_ = 0.0;
+};
+
+}  // namespace clatter::observables
