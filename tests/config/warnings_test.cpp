@@ -189,7 +189,7 @@ TEST(Observing, nothing_is_warned_of_unless_every_observable_is_written_as_off) 
       "[scene]\nxs = 1\n[observe]\nextrema = false\nharmonics = 0\nimpacts = false\nimpact_log = false\n"
       "trajectory = 0\nsection = 0\nword = false\nperiod = false\nstability = false\n";
   expect_warning(off, "3:2", "nothing is observed");
-  expect_none(off + "energy = false\nsettling = false\nattractor = false\n");
+  expect_none(off + "energy = false\nsettling = false\ntime_to_rest = false\nattractor = false\n");
   for (const std::string alone : {"settling = true", "attractor = true", "stability = true", "section = 3"})
     expect_none(scene + "[observe]\n" + alone + "\n");
 }
