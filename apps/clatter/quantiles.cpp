@@ -104,7 +104,8 @@ std::vector<Quantiles> quantiles_of(const results::FileSummary& summary, const s
       storage::refuse_reading(path, "is damaged: " + config::in_quotes(entry->name) + " has another length",
                               "run its configuration again");
     if (width > 1 && has_harder_stop(entry->name))
-      all.push_back(of_values(entry->name, entry->units, known_values(harder_of(*values, width), 0, 1, *status)));
+      all.push_back(of_values(entry->name, entry->units, compared.per(entry->name),
+                              known_values(harder_of(*values, width), 0, 1, *status)));
     for (std::size_t part = 0; part < width; ++part) {
       const std::string name = entry->dimensions.size() == 1
                                    ? entry->name

@@ -11,6 +11,7 @@
 #include "file_points.hpp"
 #include "lanes/instruction_set.hpp"
 #include "outputs/output_summary.hpp"
+#include "per_period.hpp"
 #include "storage/input_file.hpp"
 #include "sweep/run.hpp"
 
@@ -110,6 +111,11 @@ void require_points_of_their_own(const Ranges& ranges, const results::FileSummar
     throw ChoiceError(
         "--refine: along `follow` a motion depends on the points before, so none runs alone between two; "
         "leave it out, or follow the motion by `clatter branch`");
+  const Compared compared(summary, path);
+  for (const Condition& condition : ranges.choice().where)
+    if (!compared.per(condition.name).empty())
+      throw ChoiceError("--refine: '" + condition.name +
+                        "' is per forcing period here, and not of a point between two; leave it out, or name a power");
   const auto* const result = ranges.result();
   if (result != nullptr && (result->name == "attractor" || result->name == "motion_count"))
     throw ChoiceError("--refine: numbers of motions depend on all points; leave it out, or name e.g. impact_word");
