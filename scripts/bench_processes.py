@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import statistics
+import subprocess
 import tempfile
 
 from readme_table import SOURCE, add_build, program
@@ -30,6 +31,41 @@ def map_settings(points):
         "observe.period": "true",
     }
     return [text for key, value in settings.items() for text in ("--set", f"{key}={value}")]
+
+
+# a plain sweep: nothing but impacts
+TRANSIENTS = """[scene]
+f = -1.0
+h = 0.1
+R = 0.7
+xs = -0.5
+
+[sweep]
+nu = "linspace(0.5, 1.5, 2000)"
+
+[time]
+mode = "transient"
+duration = 20000
+"""
+
+
+def seconds_and_impacts(command, environment):
+    """The processor time of a run on one thread, and the impacts that it simulates."""
+    seconds = timed(*command, permitted=(0, 1), environment=environment).processor
+    loud = [word for word in command if word != "-q"] + ["-v"]
+    told = subprocess.run(loud, env=environment, capture_output=True, text=True, check=False).stderr
+    return seconds, next(float(line.split()[1]) for line in told.splitlines() if line.startswith("impacts "))
+
+
+def over_impacts(run, plain, repetitions, environment):
+    """The time of a run over that of its impacts, each of which takes as long as one of a plain sweep; both on one
+    thread, in turn."""
+    ratios = []
+    for _ in range(repetitions):
+        seconds, impacts = seconds_and_impacts(run, environment)
+        plain_seconds, plain_impacts = seconds_and_impacts(plain, environment)
+        ratios.append(seconds / impacts / (plain_seconds / plain_impacts))
+    return statistics.median(ratios)
 
 
 def basins_scene(points, numbered):
@@ -111,24 +147,31 @@ def main():
                 *options,
             ]
 
-        basins, numbered = (pathlib.Path(folder) / f"{name}.toml" for name in ("basins", "numbered"))
+        basins, numbered, transients = (
+            pathlib.Path(folder) / f"{name}.toml" for name in ("basins", "numbered", "transients")
+        )
         basins.write_text(basins_scene(arguments.map, False), encoding="utf-8")
         numbered.write_text(basins_scene(arguments.map, True), encoding="utf-8")
+        transients.write_text(TRANSIENTS, encoding="utf-8")
+        map_command = command(CONFIGS / "map_nu_xs.toml", *map_settings(arguments.map))
         results = [
             measured("start", [command(ONE_POINT)], 4 * arguments.repetitions, environment),
             measured("figures", [command(config) for config in FIGURES], arguments.repetitions, environment),
-            measured(
-                "map",
-                [command(CONFIGS / "map_nu_xs.toml", *map_settings(arguments.map))],
-                arguments.repetitions,
-                environment,
-            ),
+            measured("map", [map_command], arguments.repetitions, environment),
             measured("basins", [command(basins)], arguments.repetitions, environment),
             measured("numbered basins", [command(numbered)], arguments.repetitions, environment),
         ]
+        one_thread = ("--threads", "1")
+        ratio = over_impacts(
+            [*map_command, *one_thread], command(transients, *one_thread), arguments.repetitions, environment
+        )
     with open(arguments.out, "w", encoding="utf-8") as file:
         json.dump(
-            {"context": {"map": arguments.map, "cores": os.cpu_count(), "arch": arguments.arch}, "processes": results},
+            {
+                "context": {"map": arguments.map, "cores": os.cpu_count(), "arch": arguments.arch},
+                "processes": results,
+                "map over its impacts": ratio,
+            },
             file,
             indent=2,
         )

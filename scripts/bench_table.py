@@ -188,6 +188,8 @@ def show_processes(content, unit):
         for one in content["processes"]
     ]
     size, cores = content["context"]["map"], content["context"]["cores"]
+    ratio = content["map over its impacts"]
+    rows.append(("map over its impacts, one thread", f"{ratio:.2f}", "", "", ""))
     show(
         f"Whole processes of clatter run on {cores} cores; the map has {size} x {size} points",
         ("what", "time", "in s", "memory", "runs"),
@@ -286,6 +288,7 @@ def wanted_times(wanted, content, figures):
             1.3,
             lambda ratio: f"{ratio:.2f}",
         )
+        wanted.at_most("the map over its impacts", content["map over its impacts"], 2.5, lambda ratio: f"{ratio:.2f}")
         megabytes = next(one["megabytes"] for one in content["processes"] if one["name"] == "map")
         wanted.at_most("the map: memory", megabytes, 300, lambda value: f"{value:.0f} MB")
     for what, value, bound in times:

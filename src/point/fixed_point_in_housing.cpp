@@ -7,6 +7,8 @@
 #include "point/every_effect.hpp"
 #include "point/fifty_digit_periods.hpp"
 #include "point/fixed_point.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
 
 namespace clatter::point {
 namespace {
@@ -94,7 +96,7 @@ std::optional<FixedPoint> find_fixed_point(const Problem& problem, const motion:
   found.start.loose = {near.loose.wall, near.loose.place, near.loose.speed, near.loose.pressed};
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     stepping::NoObserver nobody;
-    const auto state = run_periods<E>(problem, found, periods, stopped, nobody);
+    const auto state = run_periods<stepping::Exact<FiftyDigits, E>>(problem, found, periods, stopped, nobody);
     if (!state) return std::nullopt;
     const auto begin = numbers_of(found.start, problem.loose), end = numbers_of(*state, problem.loose);
     Four<double> off;

@@ -2,11 +2,6 @@
 
 namespace clatter::point {
 
-std::optional<FixedPoint> fixed_point(const Problem& problem, const motion::State<double>& near, std::int64_t periods,
-                                      const std::function<bool()>& stopped) {
-  return InDigits<FiftyDigits>::fixed_point(problem, near, periods, stopped);
-}
-
 std::vector<motion::State<double>> periodic_sections(const Problem& problem, const motion::State<double>& near,
                                                      std::int64_t periods) {
   if (auto found = InDigits<DoubleDouble>::fixed_point(problem, near, periods)) return std::move(found->sections);

@@ -13,7 +13,7 @@
 #include "point/fixed_point.hpp"
 #include "point/resting_motion.hpp"
 #include "steady/repeat.hpp"
-#include "stepping/exact.hpp"
+#include "stepping/guided.hpp"
 #include "stepping/run.hpp"
 
 // Motions that double can't tell, in numbers of 31 or of 50 digits. Each is compiled in a file of its own, with all
@@ -48,8 +48,8 @@ RestingMotion run_from_release(const Problem& problem, Side side) {
   using Kind = RestingMotion::Kind;
   constexpr auto longest = static_cast<std::int64_t>(steady::RepeatFinder::longest);
   const BasicScene<Number> scene = in_digits<Number>(problem);
-  stepping::Exact<Number, E> integrator(scene, scene.stops, limits_in_more_digits(problem),
-                                        motion::ChatterRule<Number>::as_in_double());
+  stepping::Guided<Number, E> integrator(scene, scene.stops, limits_in_more_digits(problem),
+                                         motion::ChatterRule<Number>::as_in_double());
   auto state = integrator.released_from(side);
   if (!state) return {};
   RestingMotion motion{.kind = Kind::undecided};
@@ -121,8 +121,8 @@ class WatchedEvents {
 template <class Number, Effects E>
 std::optional<ReleasedMotion> run_until_released(const Problem& problem, Side side, std::int64_t periods) {
   const BasicScene<Number> scene = in_digits<Number>(problem);
-  stepping::Exact<Number, E> integrator(scene, scene.stops, limits_in_more_digits(problem),
-                                        motion::ChatterRule<Number>::as_in_double());
+  stepping::Guided<Number, E> integrator(scene, scene.stops, limits_in_more_digits(problem),
+                                         motion::ChatterRule<Number>::as_in_double());
   auto state = integrator.released_from(side);
   if (!state) return std::nullopt;
   const Number phase = state->phase_turns;
@@ -165,17 +165,20 @@ class WatchedDerivative {
 
 /// By Newton's method, until a step is below 1e-30 of the state; in 31 digits, which rounding leaves a step of its own,
 /// until the one after a step that was small already, so that only rounding is left.
-template <class Number, Effects E>
-std::optional<BasicFixedPoint<Number>> find_fixed_point(const Problem& problem, const motion::State<double>& near,
-                                                        std::int64_t periods, const std::function<bool()>& stopped) {
+template <class Integrator>
+std::optional<BasicFixedPoint<typename Integrator::Number>> find_fixed_point(const Problem& problem,
+                                                                             const motion::State<double>& near,
+                                                                             std::int64_t periods,
+                                                                             const std::function<bool()>& stopped) {
+  using Number = typename Integrator::Number;
   constexpr int most_iterations = 12;
   constexpr bool has_digits_to_spare = std::numeric_limits<Number>::digits10 > 40;
   BasicFixedPoint<Number> found;
   found.start.x = near.x, found.start.v = near.v;
   bool was_small = has_digits_to_spare;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    WatchedDerivative<Number, E> derivative(problem);
-    const auto state = run_periods<E>(problem, found, periods, stopped, derivative);
+    WatchedDerivative<Number, Integrator::effects> derivative(problem);
+    const auto state = run_periods<Integrator>(problem, found, periods, stopped, derivative);
     if (!state) return std::nullopt;
     const Number dx = state->x - found.start.x, dv = state->v - found.start.v;
     const bool is_small =
@@ -204,8 +207,9 @@ struct InDigits {
   static std::optional<BasicFixedPoint<Number>> fixed_point(const Problem& problem, const motion::State<double>& near,
                                                             std::int64_t periods,
                                                             const std::function<bool()>& stopped = {}) {
-    return with_every_effect(problem,
-                             [&]<Effects E>() { return find_fixed_point<Number, E>(problem, near, periods, stopped); });
+    return with_every_effect(problem, [&]<Effects E>() {
+      return find_fixed_point<stepping::Guided<Number, E>>(problem, near, periods, stopped);
+    });
   }
 };
 

@@ -57,6 +57,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/point/double_double_motions.cpp",
         "src/point/fifty_digit_motions.cpp",
         "src/point/motions_beyond_double.cpp",
+        "src/point/reference_fixed_point.cpp",
         "src/point/fixed_point_in_housing.cpp",
     },
     r"boost/numeric/odeint": {"src/point/dormand_prince_points.cpp"},
@@ -89,7 +90,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/lanes/step_cushioned_block.cpp",
         "src/lanes/step_unsprung_block.cpp",
     },
-    r"stepping/exact\.hpp": {
+    r"stepping/(exact|guided)\.hpp": {
         "src/accuracy/run_record.cpp",
         "src/lanes/block_scheduler.cpp",
         "src/lanes/observe_task.cpp",
@@ -109,6 +110,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/point/double_double_motions.cpp",
         "src/point/fifty_digit_motions.cpp",
         "src/point/motions_beyond_double.cpp",
+        "src/point/reference_fixed_point.cpp",
         "src/point/fixed_point_in_housing.cpp",
         "src/point/moreau_points.cpp",
         "src/point/point.cpp",
