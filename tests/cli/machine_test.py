@@ -215,7 +215,8 @@ class Machine(StoppedRuns):
         for words in (
             r"displacement $x$ (mm)",
             "velocity $x$\N{PRIME} (m s$^{-1}$)",
-            "impulse (N s)",
+            "impulse per forcing period",
+            "(N s) upper stop",
             "excitation frequency (Hz)",
             "load = 3 N",
         ):
