@@ -295,12 +295,16 @@ except ImportError as error: print(error)"""
         self.assertIn("<h1>Own &amp; only</h1>", page.read_text(encoding="utf-8"))
         clatter.report([self.file, self.file], page, histories=False)
         self.assertEqual(page.read_text(encoding="utf-8").count("<section class=file"), 2)
-        kept = self.file.read_bytes()
-        with self.assertRaisesRegex(
-            clatter.ClatterError, "a.h5: is no report, so it is kept; name another file, or .*"
+        own = self.directory / "own.html"
+        own.write_text("<p>mine</p>", encoding="utf-8")
+        for file, says in (
+            (own, "own.html: is no report, so it is kept; name another"),
+            (self.file, "a.h5: .*in HTML"),
         ):
-            clatter.report(self.file, self.file)
-        self.assertEqual(self.file.read_bytes(), kept)
+            kept = file.read_bytes()
+            with self.assertRaisesRegex(clatter.ClatterError, says):
+                clatter.report(self.file, file)
+            self.assertEqual(file.read_bytes(), kept)
 
 
 if __name__ == "__main__":

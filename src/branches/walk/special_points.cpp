@@ -32,14 +32,6 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
   look(
       SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false,
       ends.begins_across || begins_to_halt ? turns_until : 0.0);
-  // so near to the graze of a soft stop, over the range, nothing tells the turn by a contact that has hardly begun
-  constexpr double beside_graze = 1e-12;
-  std::erase_if(found, [&](const FoundPoint& fold) {
-    const auto is_beside = [&](const CurvePoint& graze) {
-      return std::abs(fold.point.at.back() - graze.at.back()) <= beside_graze;
-    };
-    return (is_first && is_beside(walk.here())) || (ends.ends_in_graze && is_beside(*there));
-  });
   const bool has_impacts = equations.shape().size() > 0;
   const SpecialKind loses = equations.shape().mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
   if (has_impacts && has_loose_mass(equations.scene_at(there->at).loose)) {
@@ -64,6 +56,14 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
     };
     look(loses, distance, false, begin);
   }
+  // so near to a graze, over the range, rounding decides on which side of it they are, or whether they are at all
+  constexpr double beside_graze = 1e-12;
+  std::erase_if(found, [&](const FoundPoint& f) {
+    const auto is_beside = [&](const CurvePoint& graze) {
+      return std::abs(f.point.at.back() - graze.at.back()) <= beside_graze;
+    };
+    return (is_first && is_beside(walk.here())) || (ends.ends_in_graze && is_beside(*there));
+  });
   if (has_impacts || equations.shape().pressed != Side::none) {
     const double to = ends.ends_in_graze ? step - 1e-2 * step : step;
     const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
