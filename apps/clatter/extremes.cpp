@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string_view>
 #include <variant>
 
@@ -72,6 +73,9 @@ Extremes::Extremes(const results::FileSummary& summary, const std::string& path,
         "--for: " + config::in_quotes(choice_.for_axis) + " is no axis of " + storage::quoted_name(path_) +
         (axes.empty() ? ", which has none" : config::suggestion(choice_.for_axis, axes, "; its axes are ")));
   }
+  if (!choice_.for_axis.empty() && holds_branches(summary_) && choice_.for_axis != "branch")
+    throw ChoiceError("--for: along a branch each point has another value of " + config::in_quotes(choice_.for_axis) +
+                      "; write --for branch");
   if (choice_.periodic && std::ranges::find(words_, "status") == words_.end())
     throw ChoiceError("--periodic: " + storage::quoted_name(path_) + " has no status beside " +
                       config::in_quotes(result_->name) + "; leave it out");
@@ -201,7 +205,8 @@ Extreme Extremes::described(const Candidate& candidate, const results::Dataset& 
 }
 
 /// The best first; for each value of an axis the best one, in the order of the values.
-std::vector<Extremes::Candidate> Extremes::best_of(std::vector<Candidate> found) const {
+std::vector<Extremes::Candidate> Extremes::best_of(std::vector<Candidate> found,
+                                                   const results::Dataset& dataset) const {
   const auto is_better = [this](const Candidate& one, const Candidate& other) {
     if (one.value == other.value) return one.point < other.point;
     return is_largest_ ? one.value > other.value : one.value < other.value;
@@ -215,21 +220,25 @@ std::vector<Extremes::Candidate> Extremes::best_of(std::vector<Candidate> found)
   const results::NamedLength& own = find_variable(summary_, choice_.for_axis)->dimensions[0];
   const auto dimension =
       static_cast<std::size_t>(std::ranges::find(places_, own.name, &results::NamedLength::name) - places_.begin());
-  std::vector<std::optional<Candidate>> best(own.length);
+  const auto place = [&](std::size_t point) {
+    if (!holds_branches(summary_)) return indexes_of(point, places_)[dimension];
+    return static_cast<std::size_t>(number_at(variable_of(dataset, choice_.for_axis).values, point));
+  };
+  std::map<std::size_t, Candidate> best;
   for (const Candidate& candidate : found) {
-    std::optional<Candidate>& there = best[indexes_of(candidate.point, places_)[dimension]];
-    if (!there || is_better(candidate, *there)) there = candidate;
+    const auto [there, is_first] = best.try_emplace(place(candidate.point), candidate);
+    if (!is_first && is_better(candidate, there->second)) there->second = candidate;
   }
   std::vector<Candidate> of_each;
-  for (const std::optional<Candidate>& one : best)
-    if (one) of_each.push_back(*one);
+  for (const auto& [at, one] : best) of_each.push_back(one);
   return of_each;
 }
 
 std::vector<Extreme> Extremes::of(const results::Dataset& dataset) const {
   require_complete(dataset);
   std::vector<Extreme> extremes;
-  for (const Candidate& candidate : best_of(candidates(dataset))) extremes.push_back(described(candidate, dataset));
+  for (const Candidate& candidate : best_of(candidates(dataset), dataset))
+    extremes.push_back(described(candidate, dataset));
   return extremes;
 }
 

@@ -67,7 +67,7 @@ class Extremes {
   [[nodiscard]] const results::FileSummary::Entry& require_result(const std::string& name) const;
   void collect_variables();
   [[nodiscard]] std::vector<bool> wanted_parts(const results::Dataset& dataset) const;
-  [[nodiscard]] std::vector<Candidate> best_of(std::vector<Candidate> found) const;
+  [[nodiscard]] std::vector<Candidate> best_of(std::vector<Candidate> found, const results::Dataset& dataset) const;
   [[nodiscard]] bool counts(steady::Status status) const;
   [[nodiscard]] std::vector<Candidate> candidates(const results::Dataset& dataset) const;
   [[nodiscard]] Extreme described(const Candidate& candidate, const results::Dataset& dataset) const;

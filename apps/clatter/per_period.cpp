@@ -75,6 +75,7 @@ double periods_at(const Told& told, const point::Problem& problem, std::size_t p
 /// The forcing periods for which each point of a sweep was observed; empty if that isn't known of all, or nothing
 /// drives the mass.
 std::vector<double> observed_periods(const results::FileSummary& summary, const std::string& path) {
+  static_cast<void>(dimensions_of_points(summary, path));  // a shard has none
   const sweep::Sweep sweep = outputs::config_of_output(summary, path).sweep;
   if (sweep.dimensions.empty() || sweep.problem.time.mode == steady::Mode::transient) return {};
   const Told told = told_by(summary, path);

@@ -67,6 +67,16 @@ std::vector<std::string> words_of(const results::Variable& variable) {
   return words;
 }
 
+/// Of a flag, whose words are known, one of them is meant.
+void require_meaning(const Condition& condition, const std::vector<std::string>& meanings) {
+  std::vector<std::string_view> known;
+  for (const std::string& meaning : meanings)
+    if (!meaning.empty()) known.push_back(meaning);
+  if (known.empty() || std::ranges::find(known, condition.word) != known.end()) return;
+  throw ChoiceError("--where " + text_of(condition) + ": no such " + condition.name +
+                    config::suggestion(condition.word, known, "; there are "));
+}
+
 }  // namespace
 
 std::string text_of(const Condition& condition) {
@@ -254,6 +264,7 @@ void PointFilter::keep_results(const Compared& asked, const results::Dataset& da
   };
   if (by_word) {
     const std::vector<std::string> words = words_of(variable);
+    require_meaning(condition, meanings_of(variable));
     const bool is_equal = condition.comparison == Comparison::equal;
     keep([&](std::size_t point) { return (words[point] == condition.word) == is_equal; });
   } else if (layout == Layout::components &&

@@ -272,10 +272,11 @@ Met Ranges::met(const results::Dataset& dataset) const {
   Met met{0, 0, 0, filter_.without_value(dataset)};
   const std::vector<bool> chosen = filter_.chosen(dataset);
   const auto* const status = results::values_of<std::uint8_t>(dataset, "status");
+  const bool of_status = std::ranges::any_of(choice_.where, [](const Condition& one) { return one.name == "status"; });
   for (std::size_t point = 0; point < chosen.size(); ++point) {
-    const bool has_failed = status != nullptr && failed(static_cast<steady::Status>((*status)[point]));
-    ++(has_failed ? met.failed : met.of);
-    if (chosen[point] && !has_failed) ++met.points;
+    const bool is_left_out = !of_status && status != nullptr && failed(static_cast<steady::Status>((*status)[point]));
+    ++(is_left_out ? met.failed : met.of);
+    if (chosen[point] && !is_left_out) ++met.points;
   }
   return met;
 }

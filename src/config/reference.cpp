@@ -12,8 +12,8 @@ constexpr std::string_view values = R"text(Values, in TOML, in INI and after --s
                        quotes: "2*pi")
   3 mm   2*pi rad/s    a number with its unit, for keys of [machine] and, beside
                        them, duration and the ranges of [branch]: products and
-                       quotients of m, s, N, g, Hz, rad with prefixes (n u m c
-                       d k M G; for u also the micro sign) and powers, and of
+                       quotients of m, s, N, J, W, g, Hz, rad with prefixes (n u
+                       m c d k M G; for u also the micro sign), powers, and of
                        min, rpm, deg (or the degree sign): N s/m, m s-1, 1/min;
                        in TOML in quotes: "3 mm"
   60 %   30 deg        a number without unit, and an angle, also in [scene]; in

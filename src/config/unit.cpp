@@ -17,6 +17,8 @@ constexpr std::array symbols{
     Symbol{"m", true, {.exponents = {1, 0, 0}}},
     Symbol{"s", true, {.exponents = {0, 1, 0}}},
     Symbol{"N", true, {.exponents = {1, -2, 1}}},
+    Symbol{"J", true, {.exponents = {2, -2, 1}}},
+    Symbol{"W", true, {.exponents = {2, -3, 1}}},
     Symbol{"g", true, {.exponents = {0, 0, 1}, .ten = -3}},
     Symbol{"Hz", true, {.exponents = {0, -1, 0}, .angle = 1, .turns = 1}},
     Symbol{"rad", true, {.angle = 1}},

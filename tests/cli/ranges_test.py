@@ -143,6 +143,43 @@ class Ranges(CommandLine):
         self.assertEqual({part["word"] for line in lines for part in line["ranges"]}, set(words))
         self.assert_refused(2, "special points of branches", "info", "a.h5", "--ranges", "word", "--refine")
 
+    def test_the_largest_of_each_branch(self):
+        branch = '[branch]\nalong = "nu"\nrange = [0.9, 1.5]\n[observe]\nimpacts = true\n'
+        with self.made(SWEEP[: SWEEP.index("[sweep]")] + "nu = 1.1\n" + branch, "branch") as file:
+            of, speed = file["branch"][()], file["impact_speed"][()]
+        found = self.info("--max", "impact_speed", "--for", "branch", "--json")["points"]
+        self.assertGreater(len(np.unique(of)), 1)
+        largest = [np.nanmax(np.nan_to_num(speed[of == number])) for number in np.unique(of)]
+        self.assertEqual([entry["value"] for entry in found], largest)
+        done = self.clatter("info", "a.h5", "--max", "impact_speed", "--for", "nu")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("write --for branch", done.stderr)
+
+    def test_points_of_a_status_that_failed_count_if_it_is_asked_for(self):
+        self.write("a.toml", SWEEP + "[time]\nmax_impacts = 30\n")
+        self.assertEqual(self.clatter("run", "a.toml", "-q", "-o", "a.h5").returncode, 1)
+        with h5py.File(self.directory / "a.h5") as file:
+            failed = int((file["status"][()] == 16).sum())
+        self.assertTrue(0 < failed < 13)
+        self.assertIn(f": {failed} of 13 points, ", self.info("--where", "status=event_budget"))
+        done = self.clatter("info", "a.h5", "--where", "status=peroidic")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no such status; did you mean 'periodic'?", done.stderr)
+
+    def test_conditions_take_the_units_of_power_and_work(self):
+        with self.made(SAMPLE.replace("impacts = true", "impacts = true\nenergy = true")) as file:
+            power = file["impact_power"][()]
+        share = f": {(power > 0.45).sum()} of 128 points"
+        self.assertTrue(0 < (power > 0.45).sum() < 128)
+        for text in ("impact_power > 0.45 W", "impact_power > 450 mW", "impact_power > 0.45 J/s"):
+            self.assertIn(share, self.info("--where", text))
+
+    def test_a_shard_is_told_to_be_one(self):
+        self.write("a.toml", SWEEP.replace("impacts = true", "impacts = true\nenergy = true"))
+        self.assertEqual(self.clatter("run", "a.toml", "-q", "--shard", "0/3", "-o", "a.h5").returncode, 0)
+        for words in (("--max", "impact_speed"), ("--ranges", "impact_word")):
+            self.assertIn("is shard 0/3 of a sweep; join all", self.clatter("info", "a.h5", *words).stderr)
+
 
 class Points(CommandLine):
     def made(self, *names):
