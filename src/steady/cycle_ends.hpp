@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "steady/contact_at_section.hpp"
+#include "steady/repeat.hpp"
 #include "stepping/integrator.hpp"
 
 namespace clatter::steady {
@@ -87,9 +88,11 @@ class CycleEnds {
     const auto [z, w] = motion::place_in_housing(state, scene_.loose);
     return {gap(z, scene_.loose), std::abs(w)};
   }
-  /// How long a state is within rounding of an event, tau.
+  /// How long a state is within rounding of an event, tau. The transient left at a repeat is below its tolerance, but a
+  /// contact moves by more than the state does, so as much is allowed as where a repeat is confirmed.
   [[nodiscard]] double within(const State& state) const {
-    return std::min(same_instant * integrator_.period(), 4 * uncertainty_ / approach(state).speed);
+    const double off = RepeatFinder::divisor_tolerances * uncertainty_;
+    return std::min(same_instant * integrator_.period(), off / approach(state).speed);
   }
   /// Whether there may be an event so soon. A mass that stands, or is pressed, begins no new one.
   [[nodiscard]] bool may_meet(const State& state, double soon) const {

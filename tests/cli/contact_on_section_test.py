@@ -51,6 +51,27 @@ stability = true
 energy = true
 """
 
+# Started on the contact of a loose mass with its upper wall, whose instant a repeat knows to 2e-11.
+AT_WALL = """[scene]
+h = 0.004714136466759241
+f = 1
+nu = 0.3788350011145729
+x0 = 0.8473262353112411
+v0 = -0.2972062657772536
+loose_mass = 0.00552989685086747
+loose_R = 0.5905463961306159
+loose_x0 = 2.7906249450446614
+loose_v0 = -0.4572250519550655
+loose_lower = 0.0
+loose_upper = 2.7906249450446614
+[sweep]
+phase = {phases}
+[observe]
+impacts = true
+word = true
+stability = true
+"""
+
 TWO_MOTIONS = """[scene]
 f = -1.0
 nu = 2.855948996184263
@@ -275,6 +296,13 @@ class ContactOnSection(CommandLine):
                 self.assertEqual(file["period_ratio"][()], 7)
                 self.assertEqual(sorted(file["impact_word"][()].decode()), sorted("LLULULULULULU"))
                 self.assertAlmostEqual(file["multiplier_re"][0], -0.890984343, 6)
+
+    def test_a_contact_with_a_wall_counts_once_beside_the_section(self):
+        for arch in ARCHITECTURES:
+            phases = [2.333371513769045 + beside for beside in (0, 1e-14, -1e-13, 1e-12, -1e-12, 1e-11, 1e-8)]
+            with self.run_on(arch, AT_WALL.format(phases=numbers(phases))) as file:
+                self.assertEqual(set(file["impact_word"][()]), {b"LU"}, arch)
+                np.testing.assert_allclose(np.nanmax(file["multiplier_re"][()], axis=1), 0.3118471919, rtol=1e-9)
 
 
 if __name__ == "__main__":
