@@ -12,7 +12,7 @@ import numpy as np
 from scene_pictures import ScenePictures
 from script_runs import run_script
 
-from clatter.plots.names import equation
+from clatter.plots.names import equation, label
 
 
 class Labels(ScenePictures):
@@ -93,6 +93,34 @@ class Labels(ScenePictures):
         self.assertIn(
             "damping of the stops = 20\N{NO-BREAK SPACE}N\N{NO-BREAK SPACE}s\N{NO-BREAK SPACE}m$^{-1}$", heading
         )
+
+    def test_a_sensitivity_says_of_which_result_to_which_key(self):
+        machine = "[machine]\nmass = 0.2\nstiffness = 2000\ndamping_ratio = 0.03\nforce = 8\nR = 0.6\ngap = 0.0015\n"
+        sweep = "[sweep]\nfrequency = 'linspace(24.5, 50, 9)'\n[observe]\nimpacts = true\nenergy = true\n"
+        self.run_text("sens", machine + sweep + "sensitivity = 'gap, stiffness, damping_ratio'\n", "run")
+        scene = "[scene]\nf = -1\nh = 0.1\nR = 0.7\nxs = 0.5\n[sweep]\nnu = [0.9, 1]\n"
+        self.run_text("units", scene + "[observe]\nimpacts = true\nsensitivity = 'R, xs'\n", "run")
+        for file, name, words in (
+            ("sens", "d_impact_speed_d_gap", "sensitivity of the impact speed to the gap"),
+            ("sens", "d_impact_speed_d_stiffness", "sensitivity of the impact speed to $k$"),
+            ("sens", "d_impact_power_d_gap", "sensitivity of the power lost in impacts to the gap"),
+            ("sens", "d_period_d_damping_ratio", "sensitivity of $T$ to the damping ratio"),
+            ("sens", "d_x_max_d_stiffness", r"sensitivity ∂$x_{\max}$/∂$k$"),
+            ("units", "d_impact_speed_d_xs", "sensitivity of the impact speed to $x_s$"),
+            ("units", "d_x_max_d_R", r"sensitivity ∂$x_{\max}$/∂$R$"),
+        ):
+            with self.subTest(name):
+                told = label(self.output(file), name)
+                self.assertEqual(told.split(" (")[0], words)
+        drawn = self.figure("sens", only=("d_impact_speed_d_gap", "d_impact_speed_d_stiffness"))
+        shown = [axes.get_ylabel().replace("\n", " ") for axes in drawn.axes]
+        self.assertIn("speed to the gap (", shown[0])
+        self.assertIn("speed to $k$ (", shown[1])
+        point = scene.replace("[sweep]\nnu = [0.9, 1]\n", "nu = 0.9\n")
+        self.run_text("point", point + "[observe]\nimpacts = true\nsensitivity = 'R'\n", "run")
+        texts = [text.get_text() for axes in self.figure("point").axes for text in axes.texts]
+        self.assertTrue(any(text.startswith("sensitivity of the impact speed to $R$") for text in texts), texts)
+        self.assertFalse(any("impact_speed" in text for text in texts), texts)
 
     def test_starts_at_0_are_not_told(self):
         for name in ("machine", "large", "dampers"):

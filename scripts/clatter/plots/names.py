@@ -15,12 +15,16 @@ STUCK = "(S)"  # the word of a mass that friction holds for good, wherever that 
 NO_CONTACT = ("-", "")  # the words of motion that meets no stop; the empty one in files before 0.3.0
 YES_OR_NO = ("symmetric",)  # what 1 and 0 stand for
 PLACES = ("x", "x_min", "x_max")  # drawn between the stops
+SENSITIVITY = re.compile("∂(.+)/∂(.+)")  # the symbol of a derivative
 RECORDED = {"tau": "impact_tau", "v_before": "impact_v_before", "x": "section_x", "v": "section_v"}  # the same, too
 
 
 def names_of(output, name):
-    """Words and symbol of a variable of an output, or of a constant of its scene; empty if the file has none."""
+    """Words and symbol of a variable of an output, or of a constant of its scene; empty if the file has none. A
+    sensitivity has a symbol only if both that it is made of have one."""
     variable = variable_of(output, name)
+    if variable and is_key(variable.symbol) and is_sensitivity(variable):
+        return sensitivity_in_words(output, variable), ""
     if variable and (variable.label or variable.symbol):
         return variable.label, typeset_symbol(variable.symbol)
     constant = output.constants.get(name, {})
@@ -34,8 +38,21 @@ def symbol(output, name):
 
 
 def is_key(sign):
-    """Whether a symbol is only the key of a configuration, e.g. damping_ratio."""
-    return "_" in sign and "$" not in sign
+    """Whether a symbol is, or has in it, only the key of a configuration, e.g. damping_ratio."""
+    return "_" in re.sub(r"\$[^$]*\$", "", sign)
+
+
+def is_sensitivity(variable):
+    return bool(SENSITIVITY.fullmatch(variable.symbol))
+
+
+def sensitivity_in_words(output, variable):
+    """Of which result to which key, each by its symbol if that is mathematics, else in words."""
+    result, key = (
+        sign if "$" in sign else f"the {words_of(output, sign) if is_key(sign) else sign}"
+        for sign in SENSITIVITY.fullmatch(variable.symbol).groups()
+    )
+    return f"sensitivity of {typeset_symbol(result)} to {typeset_symbol(key)}"
 
 
 def words_of(output, name):
@@ -108,7 +125,9 @@ def scale_in(words):
 
 
 def result_in_words(output, name):
-    """A result as a sentence has it, in words alone."""
+    """A result as a sentence has it, in words but for the symbols of a sensitivity."""
+    if is_sensitivity(output[name]):
+        return sensitivity_in_words(output, output[name])
     return words_of(output, name) if name in YES_OR_NO else plain(output[name].long_name)
 
 
