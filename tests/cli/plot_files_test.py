@@ -196,6 +196,18 @@ class Places(Made):
         self.assertIn("a.svg: cannot be written (Is a directory)", result.stderr)
         self.assertEqual(self.files(), ["a.h5", "a.svg"])
 
+    def test_a_picture_that_is_refused_leaves_no_folder(self):
+        for words in (["--only", "none"], ["--scatter", "none"], ["--at", "none=1"], ["--size", "1x1"]):
+            with self.subTest(words):
+                result = self.run_here("plot.py", "a.h5", *words, "-o", "new/deep")
+                self.assertEqual((result.returncode, result.stdout), (2, ""))
+                self.assertEqual(self.files(), ["a.h5"])
+        result = self.run_here("plot.py", "a.h5", "--format", "svg", "-o", "new/deep")
+        self.assertEqual((result.returncode, result.stdout), (0, "new/deep/a.svg\n"))
+        result = self.run_here("plot.py", "a.h5", "--format", "svg", "-o", "a.h5/deep")
+        self.assertEqual((result.returncode, result.stdout), (74, ""))
+        self.assertRegex(result.stderr, r"^plot.py: a.h5/deep: no folder can be made here \(.*\); name another .*\n$")
+
 
 class Names(Made):
     def test_files_that_begin_with_a_minus_come_after_two(self):

@@ -21,10 +21,10 @@ def draw(name):
     with needing("plot"):
         from . import pictures, style
     style.use_style(options.size)
-    if options.output:
-        make_folder(options.output)
     places = iter(options.files)
     for stem, figure in pictures.pictures(options):
+        if options.output:
+            make_folder(options.output)  # once there is a picture: one that is refused leaves no folder
         folder = Path(options.output) if options.output else Path(next(places)).parent
         for kind in dict.fromkeys(options.format):
             path = folder / f"{stem}.{kind}"
