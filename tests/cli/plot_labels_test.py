@@ -119,7 +119,8 @@ class Labels(ScenePictures):
         point = scene.replace("[sweep]\nnu = [0.9, 1]\n", "nu = 0.9\n")
         self.run_text("point", point + "[observe]\nimpacts = true\nsensitivity = 'R'\n", "run")
         texts = [text.get_text() for axes in self.figure("point").axes for text in axes.texts]
-        self.assertTrue(any(text.startswith("sensitivity of the impact speed to $R$") for text in texts), texts)
+        words = "sensitivity of the speed of the fastest impact to the restitution"
+        self.assertTrue(any(text.startswith(words) for text in texts), texts)
         self.assertFalse(any("impact_speed" in text for text in texts), texts)
 
     def test_starts_at_0_are_not_told(self):

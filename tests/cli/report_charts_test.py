@@ -13,6 +13,7 @@ from command_line import SOURCE
 from report_runs import ReportRuns, data_of, doubles
 
 from clatter.plots.names import in_one_line
+from clatter.reports.pictures import without_symbols
 
 CONFIGS = SOURCE / "configs"
 
@@ -105,6 +106,28 @@ class Charts(ReportRuns):
         self.run_config(CONFIGS / "basins.toml", "s.h5", *sample)
         panels = data_of(self.page("s.h5", "--no-histories"))["panels"]
         self.assertEqual([panel["plane"] for panel in panels], [["x0", "v0"]] * len(panels))
+
+    def test_the_words_of_a_picture_have_no_rest_of_a_symbol_or_unit(self):
+        observe = "[observe]\nextrema = true\nimpacts = true\nsensitivity = 'gap, stiffness'\n"
+        sweep = "[sweep]\nfrequency = 'linspace(20, 30, 9)'\n"
+        scene = "[machine]\nmass = 0.2\nstiffness = 2000\ndamping_ratio = 0.03\nforce = 8\nR = 0.6\ngap = 0.0015\n"
+        (self.directory / "a.toml").write_text(scene + sweep + observe, encoding="utf-8")
+        self.run_config("a.toml", "a.h5")
+        (words,) = re.findall(r'<img alt="Picture of .*?: (.*?)"', self.page("a.h5", "--no-histories"))
+        for part in ("velocity", "velocity at impact"):
+            self.assertIn(part, re.split(", | over ", words))
+        self.assertIn("sensitivity of the speed of the fastest impact to the gap", words)
+        self.assertIn("sensitivity of the speed of the fastest impact to the stiffness", words)
+        self.assertNotRegex(words, r"[^\w ,]|_")
+        for label, told in (
+            ("velocity $x$′ (m s$^{-1}$)", "velocity"),
+            ("velocity before impact $x$′$^{{-}}$\nupper stop", "velocity before impact upper stop"),
+            ("velocity ratio $|x$′$^{{-}}|$ / gap\n(s$^{-1}$)", "velocity ratio"),
+            ("sensitivity ∂$T$/∂$k$ (s/(N m$^{-1}$)) in $10^{-5}$", "sensitivity"),
+            ("initial velocity $x$′$(0)$", "initial velocity"),
+            ("power lost in impacts (W)", "power lost in impacts"),
+        ):
+            self.assertEqual(without_symbols(label), told)
 
     def test_the_picture_has_a_role_a_label_and_words_and_only_the_place_is_told(self):
         self.run_config(CONFIGS / "rig.toml", "rig.h5")

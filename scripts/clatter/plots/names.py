@@ -125,9 +125,13 @@ def scale_in(words):
 
 
 def result_in_words(output, name):
-    """A result as a sentence has it, in words but for the symbols of a sensitivity."""
-    if is_sensitivity(output[name]):
-        return sensitivity_in_words(output, output[name])
+    """A result as a sentence has it, in words alone."""
+    found = re.fullmatch(r"d_(.+?)_d_(.+)", name)
+    if found and is_sensitivity(output[name]):
+        result = plain(output[found[1]].long_name) if found[1] in output else found[1].replace("_", " ")
+        sign = names_of(output, found[2])[1]
+        key = words_of(output, found[2]) if "$" in sign or is_key(sign) else sign
+        return f"sensitivity of the {result} to the {key}"
     return words_of(output, name) if name in YES_OR_NO else plain(output[name].long_name)
 
 

@@ -10,6 +10,7 @@ from ..plots.maps import AxesImage
 from ..plots.shown import plane_in, results_in
 
 LARGEST = 1_500_000  # bytes of a picture
+SYMBOL = r"(?:[^\s,$]*\$[^$]*\$)+[^\s,$]*(?: / \S+)?"
 RESOLUTIONS = (150, 110, 80, 55)  # dots per inch of what is drawn as an image
 
 
@@ -26,19 +27,32 @@ def picture(output, points):
         members = members_of(output)
         figure = pictures.figure_of(members, choices)
         panels = sweep_panels(figure, points, [member.output for member in members])
-    return svg_of(figure), panels, in_words(figure)
+    return svg_of(figure), panels, in_words(figure, output)
 
 
-def in_words(figure):
+def in_words(figure, output):
     """What the panels of a figure show, without symbols and units: "displacement, velocity over nu"."""
     panels = [axes for axes in figure.axes if axes.axison and axes.get_label() != "<colorbar>"]
-    shown = dict.fromkeys(without_symbols(axes.get_title() or axes.get_ylabel()) for axes in panels)
+    shown = dict.fromkeys(result_words(axes, output) for axes in panels)
     over = dict.fromkeys(without_symbols(axes.get_xlabel()) for axes in panels)
     return " over ".join(", ".join(filter(None, words)) for words in (shown, over) if any(words))
 
 
+def result_words(axes, output):
+    """What a panel shows. The label of a sensitivity may be all symbols."""
+    shown = [name for name, _ in results_in(axes) if name in output and names.is_sensitivity(output[name])]
+    if shown:
+        return ", ".join(names.result_in_words(output, name) for name in dict.fromkeys(shown))
+    return without_symbols(axes.get_title() or axes.get_ylabel())
+
+
 def without_symbols(text):
-    return " ".join(re.sub(r"\$[^$]*\$|\([^)]*\)", " ", text).split()).replace(" ,", ",")
+    """A label without units and powers of ten in brackets or after "in", and without symbols, which go on beside their
+    mathematics: x′ and |x′⁻| / gap are one each."""
+    while (shorter := re.sub(r"(?<!\$)\([^()]*\)", " ", text)) != text:
+        text = shorter
+    text = re.sub(rf"(\bin )?{SYMBOL}", " ", text)
+    return " ".join(text.split()).replace(" ,", ",")
 
 
 def svg_of(figure):
