@@ -100,6 +100,11 @@ class Charts(ReportRuns):
         self.assertTrue(shown)
         for values in shown:
             self.assertLess(values.max(), 1.7 * np.median(values))
+        totals = {"work_in", "loss_damping", "loss_impact[1]", "impulse[1]"}
+        over = {column["name"]: column["over"] for column in data["columns"] if "over" in column}
+        self.assertLessEqual(totals, set(over))  # beside the picture are those of the file, which commands give again
+        self.assertEqual(set(over.values()), {"in the observed time"})
+        self.assertNotIn("impact_power", over)
 
     def test_dots_at_two_starts_have_their_inputs(self):
         sample = ("sweep.x0=sobol(-3, 3, 32)", "sweep.v0=sobol(-6, 6, 32)", "sweep.linked=x0, v0")

@@ -96,6 +96,15 @@ def numbers(driver):
     return {row.get_attribute("data-name"): row.find_element(By.CSS_SELECTOR, ".number").text for row in rows}
 
 
+def check_totals(driver, name):
+    """A total of the observed time, which isn't that of the picture, says so beside its number."""
+    for column in data_in(driver)["columns"]:
+        row = f'.numbers tr[data-name="{column["name"]}"]'
+        if "over" in column:
+            label = driver.find_element(By.CSS_SELECTOR, f"{row} td").get_attribute("textContent")
+            require(column["over"] in label, f"{name}: {label} doesn't say that it is {column['over']}")
+
+
 def data_in(driver):
     return json.loads(driver.find_element(By.CSS_SELECTOR, "section script").get_attribute("textContent"))
 
@@ -237,6 +246,7 @@ def check_page(driver, folder, name):
     check_point(driver, folder, name)
     check_charts(driver, name)
     check_access(driver, name)
+    check_totals(driver, name)
     panels, shape = data_in(driver)["panels"], data_in(driver)["shape"]
     require(bool(panels) == (len(shape) > 0), f"{name}: {len(panels)} panels show {shape} points")
     for panel in panels:

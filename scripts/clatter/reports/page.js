@@ -243,9 +243,10 @@ class Explorer {
   numbers() {
     const rows = this.data.columns.map((column) => {
       const row = element("tr", { title: column.title });
+      const over = column.over ? ` ${column.over}` : "";
       const unit = column.unit ? ` (${column.unit})` : "";
       row.dataset.name = column.name;
-      row.append(element("td", { textContent: column.name + unit }),
+      row.append(element("td", { textContent: column.name + over + unit }),
         element("td", { className: "number", textContent: this.text(column) }));
       return row;
     });

@@ -6,7 +6,7 @@ import zlib
 
 import numpy as np
 
-from ..plots.per_period import TOTALS, compared
+from ..plots.per_period import IN_TIME, TOTALS, compared
 
 MOST = 200  # points along an axis of a map
 ROOM = 2_600_000  # bytes of all numbers in a page
@@ -88,6 +88,8 @@ class Points:
     def column(self, name, variable, part):
         values = variable.values[np.ix_(*self.kept)][(..., *part)] if self.kept else variable.values[part]
         item = {"name": name, "title": variable.long_name, "unit": variable.units if variable.units != "1" else ""}
+        if IN_TIME in variable.long_name:
+            item["over"] = IN_TIME  # not per forcing period, as pictures and extremes have it
         if variable.name == "status":
             item["texts"] = {str(code): meaning.replace("_", " ") for code, meaning in self.output.meanings.items()}
         elif values.dtype.kind in "UOS":
