@@ -1,4 +1,5 @@
-"""A line joins points of one motion: it ends where the impact word or the period changes, or the mirror image swaps.
+"""A line joins points of one motion: it ends where the impact word or the period changes, or the mirror image swaps;
+of derivatives also where symmetry is lost.
 
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
@@ -108,6 +109,25 @@ class Lines(unittest.TestCase):
         sides = output.values("v_max") + output.values("v_min")
         self.assertLess(sides.min() * sides.max(), 0)
         self.assertEqual(self.joined(output, ("v_max",)), {(i, i + 1) for i in range(20)})
+
+    def test_derivatives_jump_where_symmetry_is_lost(self):
+        machine = "[machine]\nmass = 0.2\nstiffness = 2000\ndamping_ratio = 0.03\nforce = 8\nR = 0.6\ngap = 0.0015\n"
+        sweep = "[sweep]\nfrequency = 'linspace(24.5, 50, 40)'\n"
+        derived = "stability = true\nsensitivity = 'gap, stiffness'\n"
+        results = ("d_impact_power_d_gap", "d_impact_speed_d_gap", "d_impact_speed_d_stiffness", "multiplier_re")
+        output = self.output(machine + sweep + ALL + derived)
+        symmetric, words = output.values("symmetric"), output.values("impact_word")
+        lost = {(i, i + 1) for i in np.flatnonzero((symmetric[1:] != symmetric[:-1]) & (words[1:] == words[:-1]))}
+        self.assertTrue(lost)
+        for name in results:
+            found = self.joined(output, (name,))
+            self.assertEqual(found & lost, set(), name)
+            self.assertGreater(len(found), 30)
+        self.assertEqual(self.joined(output, ("impact_power",)) & lost, lost)  # it is continuous
+        by_derivatives = self.joined(output, ("d_impact_power_d_gap",))
+        without = self.output(machine + sweep + "[observe]\nextrema = true\nimpacts = true\nenergy = true\n" + derived)
+        self.assertNotIn("symmetric", without)
+        self.assertEqual(self.joined(without, ("d_impact_power_d_gap",)), by_derivatives)
 
     def test_transients_are_one_motion(self):
         scene = "[scene]\nh = 0.05\nf = 0\nR = 0.7\nxs = 0.5\n[sweep]\nv0 = 'linspace(0.1, 3, 15)'\n"

@@ -6,6 +6,7 @@ import numpy as np
 from .scales import shown_values
 
 NAMES = ("impact_word", "regime", "period_ratio", "attractor")  # results that tell motions apart
+DERIVED = ("d_", "multiplier_", "lyapunov")  # how results of the derivative of the motion begin
 PAIRS = (("v_min", "v_max"), ("z_min", "z_max"))  # the mirror image changes each for minus the other
 SAME = 1e-6  # of the scale: what differs by less is noise
 NEARER = 0.5  # how much nearer than its neighbour the mirror image must be
@@ -13,9 +14,10 @@ SIDED = ("R", "stop_stiffness", "stop_damping", "stop_R")  # keys that a stop ma
 ROUNDING = 1e-12
 
 
-def changes_of_motion(output):
-    """Whether the motion is another one between each point of the only axis and the next. Transients are one motion
-    from several starts."""
+def changes_of_motion(output, result=""):
+    """Whether the motion is another one between each point of the only axis and the next, or motion that is its own
+    mirror image and motion that isn't, between which derivatives jump. Transients are one motion from several
+    starts."""
     points = len(output.values(output.axes[0]))
     changes = np.zeros(max(points - 1, 0), bool)
     if output.is_transient:
@@ -24,6 +26,8 @@ def changes_of_motion(output):
         changes |= differs(values)
     if "impact_word" not in output and "impacts_per_period" in output:
         changes |= differs(impacts_of_one_period(output)).any(axis=1)
+    if result.startswith(DERIVED):
+        changes |= differs(symmetries(output))
     return changes | swaps(output)
 
 
@@ -39,18 +43,34 @@ def impacts_of_one_period(output):
     return np.round(output.values("impacts_per_period") * ratio[:, None], 6)
 
 
+def symmetries(output):
+    """Whether each motion is its own mirror image: as the file says, else as its results tell."""
+    if "symmetric" in output:
+        return output.values("symmetric")
+    own, mirrored, mirror, scale = compared_with_mirror(output)
+    return mirror & (length((own - mirrored) / scale) <= SAME) if len(own) else np.zeros(len(mirror), bool)
+
+
 def swaps(output):
     """Whether the next point is nearer to the mirror image of each point than to the point."""
+    own, mirrored, mirror, scale = compared_with_mirror(output)
+    if not len(own):
+        return np.zeros(max(len(mirror) - 1, 0), bool)
+    straight = length((own[:, 1:] - own[:, :-1]) / scale)
+    across = length((own[:, 1:] - mirrored[:, :-1]) / scale)
+    return mirror[:-1] & mirror[1:] & (straight > SAME) & (across < NEARER * straight)
+
+
+def compared_with_mirror(output):
+    """Results of each motion, the same of its mirror image, whether that is a motion, too, and the scale of each."""
     with np.errstate(invalid="ignore"):  # stops that aren't there are infinite
         own, mirrored = features(output)
         mirror = has_mirror(output)
     if not len(own):
-        return np.zeros(max(len(mirror) - 1, 0), bool)
+        return own, mirrored, mirror, 1.0
     scale = np.nanmax(np.abs(own), axis=1, initial=0.0, where=np.isfinite(own))[:, None]
     scale[scale == 0.0] = 1.0
-    straight = length((own[:, 1:] - own[:, :-1]) / scale)
-    across = length((own[:, 1:] - mirrored[:, :-1]) / scale)
-    return mirror[:-1] & mirror[1:] & (straight > SAME) & (across < NEARER * straight)
+    return own, mirrored, mirror, scale
 
 
 def features(output):

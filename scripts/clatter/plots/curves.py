@@ -29,11 +29,11 @@ SHARED = {  # the label of results in one panel; alone each has its own
 }
 
 
-def draw_branch(axes, output, name, values, color, title, loose_color=None, is_count=False, **style):
+def draw_branch(axes, output, name, values, color, title, loose_color=None, result="", **style):
     """One result along the only axis: a line through the points that repeat, hollow markers for those that don't. The
     line ends where the motion becomes another one, and that of a count where it changes."""
     along, loose = output.values(name), lacks_period(output.values("status"))
-    ends = changes_of_motion(output) | jumps_of(values, is_count)
+    ends = changes_of_motion(output, result) | jumps_of(values, result in COUNTS)
     along, values, loose = split_at(ends, along, values, loose)
     steady = np.where(loose, np.nan, values)
     marker = "." if len(along) < DENSE else None
@@ -147,7 +147,7 @@ def curves(members, group, axes):
             values,
             colour_of(place // len(group) if several else place),
             member_title if several else title if len(group) > 1 else None,
-            is_count=result in COUNTS,
+            result=result,
             **line_style(members, len(group), result, part, place),
         )
     set_axis(axes, output, name, MARGIN)
