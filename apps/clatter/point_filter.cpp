@@ -255,7 +255,9 @@ std::vector<bool> PointFilter::failed_points(const results::Dataset& dataset) co
 
 void PointFilter::keep_results(const Compared& asked, const results::Dataset& dataset, std::vector<bool>& kept) const {
   const results::Variable& variable = variable_of(dataset, asked.entry->name);
-  const auto& [condition, entry, layout] = asked;
+  const Condition& condition = asked.condition;
+  const Entry* const entry = asked.entry;
+  const Layout layout = asked.layout;
   const bool by_word = is_text(variable) || (!condition.value && !meanings_of(variable).empty());
   const std::vector<bool> is_failed = failed_points(dataset);
   const auto keep = [&](const auto& meets) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 
 #include "branches/equations/flight.hpp"
 #include "branches/equations/newton.hpp"
@@ -254,7 +253,8 @@ std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const 
   const Orbit orbit = equations.orbit_at(at.at);
   if (orbit.size() < 2) return std::nullopt;
   const auto length = [&](std::size_t i) { return length_of_slip(scene, orbit.impact(i), orbit.impact(i + 1)); };
-  const std::size_t first = std::ranges::min(std::views::iota(std::size_t{0}, orbit.size()), {}, length);
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < orbit.size(); ++i) first = length(i) < length(first) ? i : first;
   if (!(length(first) < about_to_vanish)) return std::nullopt;
   const OrbitImpact& from = orbit.impacts[first];
   const Orbit one = without_short_slips(scene, merged(orbit.from_event(first)), 2 * std::max(length(first), 0.0));
