@@ -6,9 +6,20 @@
 
 namespace clatter::stepping {
 
-/// Closed-form arcs and proved first contacts, for the effects in E.
-template <class N, Effects E>
-class Exact : public EventDriven<Exact<N, E>, N, E> {
+/// The first contact of an arc with the stops, proved in the arc's own numbers.
+struct OwnSearch {
+  template <class Constants, class Stops>
+  OwnSearch(const Constants&, const Stops&) {}
+
+  template <class A, class Stops, class Number>
+  [[nodiscard]] motion::Crossing<Number> operator()(const A& arc, const Stops& stops, const Number& horizon) const {
+    return next_contact(arc, stops, horizon);
+  }
+};
+
+/// Closed-form arcs and proved first contacts, which a `Search` finds, for the effects in E.
+template <class N, Effects E, class Search = OwnSearch>
+class Exact : public EventDriven<Exact<N, E, Search>, N, E> {
  public:
   using Number = N;
   static constexpr bool in_closed_form = true;
@@ -25,7 +36,7 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
 
   Exact(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits,
         const motion::ChatterRule<Number>& rule)
-      : EventDriven<Exact, N, E>(scene, in_reach, limits, rule) {}
+      : EventDriven<Exact, N, E>(scene, in_reach, limits, rule), search_(this->constants(), in_reach) {}
 
   /// The arc that begins with `start`, and its first contact, or its end at the horizon.
   [[nodiscard]] ArcToEvent<motion::Arc<Number, E.arc()>> fly(const motion::State<Number>&,
@@ -33,7 +44,7 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
                                                              const Number& horizon) {
     ArcToEvent<motion::Arc<Number, E.arc()>> flight{motion::Arc<Number, E.arc()>(this->constants(), start, anchor)};
     if constexpr (E.stops()) {
-      flight.crossing = next_contact(flight.arc, this->stops(), horizon);
+      flight.crossing = search_(flight.arc, this->stops(), horizon);
     } else {
       const motion::Motion<Number> there = flight.arc.at(horizon);
       flight.crossing = {0, Side::none, horizon, there, 1, this->finite(there.x)};
@@ -80,6 +91,9 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
     this->count_evaluations(flight.crossing.evaluations);
     return flight;
   }
+
+ private:
+  [[no_unique_address]] Search search_;
 };
 
 }  // namespace clatter::stepping

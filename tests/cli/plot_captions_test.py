@@ -4,17 +4,13 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
 import random
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-from command_line import CLATTER
 from plot_checks import overlapping_texts, texts_beyond
-from plot_pictures import choice
+from plot_pictures import PlotFolder, choice
 from script_runs import run_script
 
-from clatter.plots import pictures, style
+from clatter.plots import pictures
 from clatter.plots.data import Output
 from clatter.plots.names import equation
 
@@ -38,21 +34,9 @@ def text_of(values, rest, title=""):
     return f"title = '{title}'\n[scene]\n" + "".join(f"{key} = {value}\n" for key, value in values.items()) + rest
 
 
-class Captions(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        kept = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(kept.cleanup)
-        cls.folder = Path(kept.name)
-        style.use_style()
-
-    def make(self, command, name, text):
-        (self.folder / f"{name}.toml").write_text(text)
-        words = [CLATTER, command, self.folder / f"{name}.toml", "-o", self.folder / f"{name}.h5", "-q", "--force"]
-        self.assertIn(subprocess.run(words, capture_output=True, timeout=300).returncode, (0, 1))
-
+class Captions(PlotFolder):
     def branch(self, name, title="", **own):
-        self.make("branch", name, text_of({**SCENE, **START, **own}, BRANCH, title))
+        self.make("branch", name, text_of({**SCENE, **START, **own}, BRANCH, title), codes=(0, 1))
 
     def sweep(self, name, rest=SWEEP, title="", **own):
         self.make("run", name, text_of({**SCENE, **own}, rest, title))
@@ -102,7 +86,7 @@ class Captions(unittest.TestCase):
     def test_a_map_behind_curves_of_another_damping(self):
         self.make("run", "m", text_of({"h": 0.1, "f": -1.0, "R": 0.7}, MAP))
         for h in (0.05, 0.1):
-            self.make("branch", f"c{h}", text_of({**SCENE, "nu": 1.1, "xs": 1.6, "h": h}, FOLDS))
+            self.make("branch", f"c{h}", text_of({**SCENE, "nu": 1.1, "xs": 1.6, "h": h}, FOLDS), codes=(0, 1))
         caption, curves = self.told(self.figure("m", "c0.05"))
         self.assertNotIn("h = ", caption)
         self.assertIn("h = 0.05: folds", curves)
@@ -161,8 +145,8 @@ class Captions(unittest.TestCase):
         self.branch("b")
         machine = "[machine]\nmass = 1\nstiffness = 1\ndamping = 0.2\nforce = 1\ngap = 3\nfrequency = 0.17\n"
         along = "[branch]\nalong = 'R'\nrange = [0.6, 0.8]\n"
-        self.make("branch", "machine", machine + "R = 0.7\n" + along)
-        self.make("branch", "scene", text_of({**SCENE, **START}, along))
+        self.make("branch", "machine", machine + "R = 0.7\n" + along, codes=(0, 1))
+        self.make("branch", "scene", text_of({**SCENE, **START}, along), codes=(0, 1))
         files = [self.folder / f"{name}.h5" for name in ("machine", "scene")]
         result = run_script("plot.py", *files, "-o", self.folder / "drawn")
         self.assertEqual((result.returncode, result.stdout), (2, ""))

@@ -23,7 +23,7 @@ class Labels(ScenePictures):
 
     def test_a_followed_axis_is_told_by_any_of_its_keys(self):
         linked = "[scene]\nh = 0.1\nxs = 4\n[sweep]\nnu = [0.9, 1.0]\nf = [1, 2]\nlinked = 'nu, f'\nfollow = 'f'\n"
-        self.run_text("linked", linked + "[observe]\nextrema = true\n", "run")
+        self.make("run", "linked", linked + "[observe]\nextrema = true\n")
         self.assertEqual(self.output("linked").follow, "nu")
 
     def test_one_extreme_is_named_as_such(self):
@@ -97,9 +97,9 @@ class Labels(ScenePictures):
     def test_a_sensitivity_says_of_which_result_to_which_key(self):
         machine = "[machine]\nmass = 0.2\nstiffness = 2000\ndamping_ratio = 0.03\nforce = 8\nR = 0.6\ngap = 0.0015\n"
         sweep = "[sweep]\nfrequency = 'linspace(24.5, 50, 9)'\n[observe]\nimpacts = true\nenergy = true\n"
-        self.run_text("sens", machine + sweep + "sensitivity = 'gap, stiffness, damping_ratio'\n", "run")
+        self.make("run", "sens", machine + sweep + "sensitivity = 'gap, stiffness, damping_ratio'\n")
         scene = "[scene]\nf = -1\nh = 0.1\nR = 0.7\nxs = 0.5\n[sweep]\nnu = [0.9, 1]\n"
-        self.run_text("units", scene + "[observe]\nimpacts = true\nsensitivity = 'R, xs'\n", "run")
+        self.make("run", "units", scene + "[observe]\nimpacts = true\nsensitivity = 'R, xs'\n")
         for file, name, words in (
             ("sens", "d_impact_speed_d_gap", "sensitivity of the impact speed to the gap"),
             ("sens", "d_impact_speed_d_stiffness", "sensitivity of the impact speed to $k$"),
@@ -117,7 +117,7 @@ class Labels(ScenePictures):
         self.assertIn("speed to the gap (", shown[0])
         self.assertIn("speed to $k$ (", shown[1])
         point = scene.replace("[sweep]\nnu = [0.9, 1]\n", "nu = 0.9\n")
-        self.run_text("point", point + "[observe]\nimpacts = true\nsensitivity = 'R'\n", "run")
+        self.make("run", "point", point + "[observe]\nimpacts = true\nsensitivity = 'R'\n")
         texts = [text.get_text() for axes in self.figure("point").axes for text in axes.texts]
         words = "sensitivity of the speed of the fastest impact to the restitution"
         self.assertTrue(any(text.startswith(words) for text in texts), texts)
@@ -127,7 +127,7 @@ class Labels(ScenePictures):
         for name in ("machine", "large", "dampers"):
             self.assertNotIn("(0)", self.figure(name)._suptitle.get_text())
         text = "[scene]\nf = 1\nh = 0.1\nxs = 3\nv0 = 0.5\n[sweep]\nnu = [0.9, 1]\n[observe]\nextrema = true\n"
-        self.run_text("started", text, "run")
+        self.make("run", "started", text)
         heading = self.figure("started")._suptitle.get_text()
         self.assertIn("(0)$ = 0.5", heading)
         self.assertNotIn("(0)$ = 0\n", heading + "\n")
@@ -135,7 +135,7 @@ class Labels(ScenePictures):
     def test_no_key_with_an_underscore_is_in_a_caption(self):
         scene = "[machine]\nmass = 10\nstiffness = 4e4\ndamping_ratio = 0.005\nforce = 5\nloose_gap = '5 mm'\n"
         text = scene + "loose_R = 0.6\nloose_mass = 0.5\nloose_v0 = 0.1\n[sweep]\nfrequency = [9.9, 10]\n"
-        self.run_text("damper", text + "[time]\nmax_periods = 50\n[observe]\nextrema = true\n", "run")
+        self.make("run", "damper", text + "[time]\nmax_periods = 50\n[observe]\nextrema = true\n")
         heading = self.figure("damper")._suptitle.get_text()
         plain = re.sub(r"\$[^$]*\$", "", heading)
         self.assertNotRegex(plain, r"\w_\w")
@@ -146,7 +146,7 @@ class Labels(ScenePictures):
     def test_a_panel_of_impacts_begins_with_the_motion(self):
         text = "[scene]\nf = -1\nh = 0.1\nR = 0.7\nxs = -3\nnu = 0.9\n[time]\nmax_periods = 200\nwindow = {}\n"
         for window, shown in ((5, 5), (20, 20), (64, 20)):
-            self.run_text("short", text.format(window) + "[observe]\ntrajectory = 801\nimpact_log = true\n", "run")
+            self.make("run", "short", text.format(window) + "[observe]\ntrajectory = 801\nimpact_log = true\n")
             self.assertEqual(int(self.output("short").values("status")), 1)
             figure = self.figure("short")
             tau = self.output("short").values("tau")
@@ -159,7 +159,7 @@ class Labels(ScenePictures):
     def test_a_few_states_of_a_section_are_seen(self):
         text = "[scene]\nf = -1\nh = 0.1\nR = 0.7\nxs = 0.5\nnu = 1.4\n[observe]\nsection = {}\n"
         for count in (1, 4):
-            self.run_text("states", text.format(count), "run")
+            self.make("run", "states", text.format(count))
             (line,) = [line for line in self.figure("states").axes[0].lines if len(line.get_xdata())]
             self.assertGreaterEqual(line.get_markersize(), 8)  # of ".", a disc of half of that
 

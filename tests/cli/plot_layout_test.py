@@ -5,16 +5,12 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
 import re
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-from command_line import CLATTER
 from plot_checks import SVG, Svg, overlapping_texts, texts_beyond, texts_in, texts_with_boxes
-from plot_pictures import choice
+from plot_pictures import PlotFolder, choice
 from script_runs import run_script
 
 from clatter.plots import attractors, pictures, style
@@ -52,22 +48,9 @@ SWEEPS = {
 MACHINES = {"many": ("0.5 mm", 0.7), "more": ("0.5 mm", 0.75), "most": ("0.45 mm", 0.72)}
 
 
-class Layout(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        kept = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(kept.cleanup)
-        cls.folder = Path(kept.name)
-        style.use_style()
-
+class Layout(PlotFolder):
     def setUp(self):
         self.addCleanup(style.use_style)
-
-    @classmethod
-    def make(cls, command, name, text):
-        (cls.folder / f"{name}.toml").write_text(text)
-        words = [CLATTER, command, cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q"]
-        subprocess.run(words, check=True, timeout=300, stdout=subprocess.DEVNULL)
 
     def svg(self, *names, arguments=()):
         files = [self.folder / f"{name}.h5" for name in names]

@@ -5,17 +5,13 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
 import random
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-from command_line import CLATTER
-from plot_pictures import choice
+from plot_pictures import PlotFolder, choice
 
-from clatter.plots import pictures, style
+from clatter.plots import pictures
 from clatter.plots.data import Output, lacks_period
 
 DRIVE = "[machine]\nmass = '500 g'\nstiffness = '12.8 kN/m'\ndamping = '16 N s/m'\nforce = '-12.8 N'\nR = 0.7\n"
@@ -26,18 +22,9 @@ LINKED = "[sweep]\nnu = {}\nphase = {}\nlinked = 'nu, phase'\n"
 SIDES = [1.29 + 0.01 * i for i in range(8)]  # nu of motion LU that isn't symmetric
 
 
-class Lines(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        kept = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(kept.cleanup)
-        cls.folder = Path(kept.name)
-        style.use_style()
-
+class Lines(PlotFolder):
     def output(self, text):
-        (self.folder / "a.toml").write_text(text)
-        words = [CLATTER, "run", self.folder / "a.toml", "-o", self.folder / "a.h5", "-q", "--force"]
-        self.assertEqual(subprocess.run(words, capture_output=True, timeout=300).returncode, 0)
+        self.make("run", "a", text)
         return Output(self.folder / "a.h5")
 
     def joined(self, output, only):

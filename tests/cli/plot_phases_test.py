@@ -4,16 +4,14 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
 import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 from matplotlib.colors import to_hex
 
 from command_line import CLATTER
 from plot_checks import overlapping_texts, texts_beyond
-from plot_pictures import choice
+from plot_pictures import PlotFolder, choice
 from script_runs import run_script
 
 from clatter.plots import pictures, style
@@ -33,17 +31,8 @@ CONFIGURATIONS = {
 }
 
 
-class Phases(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        kept = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(kept.cleanup)
-        cls.folder = Path(kept.name)
-        for name, text in CONFIGURATIONS.items():
-            (cls.folder / f"{name}.toml").write_text(text)
-            words = [CLATTER, "run", cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q"]
-            subprocess.run(words, check=True, timeout=300)
-        style.use_style()
+class Phases(PlotFolder):
+    configurations = CONFIGURATIONS
 
     def output(self, name):
         return Output(self.folder / f"{name}.h5")

@@ -85,19 +85,38 @@ def choice(**options):
     return SimpleNamespace(**{**vars(NO_CHOICE), **options})
 
 
-class Pictures(unittest.TestCase):
-    """Tests of pictures of these files."""
+class PlotFolder(unittest.TestCase):
+    """A folder for tests, in which the program has made files."""
+
+    configurations = {}  # name: text, each run once for all tests
 
     @classmethod
     def setUpClass(cls):
         kept = tempfile.TemporaryDirectory()
         cls.addClassCleanup(kept.cleanup)
         cls.folder = Path(kept.name)
-        for name, text in CONFIGURATIONS.items():
-            (cls.folder / f"{name}.toml").write_text(text)
-            command = [CLATTER, "run", cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q"]
-            subprocess.run(command, check=True, timeout=300)
+        for name, text in cls.configurations.items():
+            cls.make("run", name, text)
         style.use_style()
+
+    @classmethod
+    def make(cls, command, name, text, codes=(0,)):
+        """NAME.toml and what a command of the program makes of it, NAME.h5."""
+        (cls.folder / f"{name}.toml").write_text(text)
+        words = [CLATTER, command, cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q", "--force"]
+        done = subprocess.run(words, capture_output=True, text=True, timeout=300)
+        if done.returncode not in codes:
+            raise AssertionError(f"{name}: {done.returncode}, {done.stderr}")
+
+
+class Pictures(PlotFolder):
+    """Tests of pictures of these files."""
+
+    configurations = CONFIGURATIONS
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
         cls.drawn, cls.figures = {}, {}
 
     def draw(self, *names, arguments=()):

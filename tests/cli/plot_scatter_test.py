@@ -3,20 +3,16 @@
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
-import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-from command_line import CLATTER
 from plot_checks import overlapping_texts, texts_beyond
-from plot_pictures import choice
+from plot_pictures import PlotFolder, choice
 from script_runs import run_script
 
 import clatter
-from clatter.plots import pictures, style
+from clatter.plots import pictures
 from clatter.plots.choice import members_of
 from clatter.plots.data import Output, lacks_period
 from clatter.plots.names import NO_CONTACT
@@ -35,17 +31,8 @@ CONFIGURATIONS = {
 }
 
 
-class Scatter(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        kept = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(kept.cleanup)
-        cls.folder = Path(kept.name)
-        for name, text in CONFIGURATIONS.items():
-            (cls.folder / f"{name}.toml").write_text(text)
-            command = [CLATTER, "run", cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q"]
-            subprocess.run(command, check=True, timeout=300)
-        style.use_style()
+class Scatter(PlotFolder):
+    configurations = CONFIGURATIONS
 
     def output(self, name):
         return Output(self.folder / f"{name}.h5")

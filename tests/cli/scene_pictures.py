@@ -3,17 +3,12 @@
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
-import subprocess
-import tempfile
-import unittest
-from pathlib import Path
 
-from command_line import CLATTER
 from plot_checks import Svg, overlapping_texts, texts_beyond
-from plot_pictures import choice
+from plot_pictures import PlotFolder, choice
 from script_runs import run_script
 
-from clatter.plots import pictures, style
+from clatter.plots import pictures
 from clatter.plots.data import Output
 
 SOFT = "[scene]\nf = -1.0\nh = 0.1\n{}[observe]\ntrajectory = 801\nimpact_log = true\n"
@@ -79,28 +74,18 @@ CONFIGURATIONS |= {
 FAILS = ("runaway", "runaways", "escapes")  # runs with points that escape
 
 
-class ScenePictures(unittest.TestCase):
+class ScenePictures(PlotFolder):
     """Tests of pictures of these files."""
 
     @classmethod
     def setUpClass(cls):
-        kept = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(kept.cleanup)
-        cls.folder = Path(kept.name)
+        super().setUpClass()
         for name, text in CONFIGURATIONS.items():
-            cls.run_text(name, text, "run", codes=(0, 1) if name in FAILS else (0,))
+            cls.make("run", name, text, codes=(0, 1) if name in FAILS else (0,))
         branch = (
             STEADY + "xs = -3\nnu = 1.05\n[observe]\nstability = true\n[branch]\nalong = 'nu'\nrange = [0.9, 1.1]\n"
         )
-        cls.run_text("branch", branch, "branch", codes=(0, 1))
-        style.use_style()
-
-    @classmethod
-    def run_text(cls, name, text, command, codes=(0,)):
-        (cls.folder / f"{name}.toml").write_text(text)
-        words = [CLATTER, command, cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q"]
-        result = subprocess.run(words, capture_output=True, text=True, timeout=300)
-        assert result.returncode in codes, (name, result.stderr)
+        cls.make("branch", "branch", branch, codes=(0, 1))
 
     def output(self, name):
         return Output(self.folder / f"{name}.h5")
