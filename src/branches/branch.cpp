@@ -116,8 +116,9 @@ class Follower {
     return record_.leave_out(special), true;
   }
 
-  void walk(const OrbitEquations& equations, const CurvePoint& start, std::optional<std::size_t> from) {
-    Walk walk(equations, start, {settings_.tolerance, settings_.largest_step});
+  void walk(const OrbitEquations& equations, const CurvePoint& start, std::optional<std::size_t> from,
+            std::optional<double> largest_step = {}) {
+    Walk walk(equations, start, {settings_.tolerance, largest_step.value_or(settings_.largest_step)});
     BranchPoint last = record_.point(equations, start);
     if (leaves_range(start, settings_)) return record_.end(last, "range");
     for (;;) {
@@ -236,7 +237,7 @@ class Follower {
     return true;
   }
 
-  /// The branch ends within a step, at a graze.
+  /// The branch ends within a step, at a graze; or shorter steps go on, as Newton's method doesn't come to it by this.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step,
                     const std::optional<std::size_t>& from) {
     std::optional<Narrowed> between = narrowed(equations, walk, step);
@@ -258,6 +259,7 @@ class Follower {
                           symmetric_, near(step), settings_.tolerance);
     if (exact && exact->joins) return end_on(*exact, equations.shape());
     BranchPoint last = record_.point(equations, touch.last_good);
+    if (!exact && step > 1e-6 * settings_.largest_step) return this->walk(equations, touch.last_good, {}, step / 8);
     if (!exact) return record_.add(last), record_.fail(last, touch.halts ? no_halt_change : no_graze);
     const Orbit with = exact->orbit,
                 without = touch.halts ? halting_at_stop(exact->scene, with, touch.impact) : with.without(touch.impact);
@@ -275,7 +277,7 @@ class Follower {
     if (touch.turns)
       waiting_.push_back({at.scene, turned(with, touch.impact), {}, special, generation_});
     else if (touch.appears)
-      wait_with(at.scene, with, touch.impact, special, heading);
+      waiting_.push_back(with_contact({at.scene, with, {}, special, generation_}, touch.impact, heading));
     else
       wait_without(at.scene, without, special, heading);
     const bool may_gain = !touch.turns && !touch.appears && !touch.halts && settings_.follows(Birth::graze);
@@ -308,16 +310,11 @@ class Follower {
     if (!is_new) return;
     if (exact.orbit.half_turns != ends.half_turns) {
       if (!settings_.follows(Birth::graze)) return record_.leave_out(special);
-      wait_with(at.scene, at.orbit, exact.impact, special);
+      waiting_.push_back(with_contact({at.scene, at.orbit, {}, special, generation_}, exact.impact));
     }
     wait_without(at.scene, at.orbit.without(exact.impact), special);
   }
 
-  void wait_with(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, std::size_t special, int came = 0) {
-    waiting_.push_back({scene, orbit, {}, special, generation_});
-    waiting_.back().came = came;
-    if (orbit.impacts[graze].event != EventKind::impact) waiting_.back().opens = {Opening::Kind::contact, graze};
-  }
   void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special, int came = 0) {
     if (orbit.size() == 0 && orbit.pressed == Side::none) {
       if (scene.oscillator.stiffness == 0 || has_loose_mass(scene.loose)) return;  // it has no place of its own

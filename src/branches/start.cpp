@@ -1,5 +1,6 @@
 #include "branches/start.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -115,7 +116,18 @@ void set_sides(const point::Problem& problem, Orbit& orbit) {
       orbit.impacts[i].side = place(orbit.impact(i + 1)) > place(orbit.impact(i)) ? Side::upper : Side::lower;
 }
 
-/// Under dry friction. If the run begins within a stick, it ends in it, too: that is one.
+/// A run tells a stick that lasts beyond a forcing period once more from there on, at the same place. If it begins
+/// within one, it ends in it, too: that is one.
+void tell_sticks_once(std::vector<OrbitImpact>& events) {
+  const auto goes_on = [](const OrbitImpact& before, const OrbitImpact& stick) {
+    return before.event == EventKind::stick && stick.event == EventKind::stick && stick.place == before.place;
+  };
+  events.erase(std::ranges::unique(events, goes_on).begin(), events.end());
+  if (events.size() > 1 && events.front().event == EventKind::stick && events.front().phase == 0)
+    events.erase(events.begin());
+}
+
+/// Under dry friction.
 Orbit slipping_start(const point::Problem& problem, const MotionStart& near, bool symmetric) {
   auto orbit = event_run(attractors::started(problem, near.state, near.phase), static_cast<std::size_t>(near.periods));
   if (!orbit) throw StartError("the run from the start fails");
@@ -125,8 +137,7 @@ Orbit slipping_start(const point::Problem& problem, const MotionStart& near, boo
       throw StartError(
           "the motion at the start rests on a stop under dry friction, and no branch of such motion is followed; begin "
           "where it doesn't rest, or sweep the parameter with follow instead");
-  if (events.size() > 1 && events.front().event == EventKind::stick && events.front().phase == 0)
-    events.erase(events.begin());
+  tell_sticks_once(events);
   if (events.empty() || (events.size() == 1 && events[0].event == EventKind::stick))
     throw StartError(
         "dry friction holds the mass at the start for good; begin where the force overcomes it, or set x0 and v0 "

@@ -54,6 +54,12 @@ void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Or
   });
 }
 
+Waiting with_contact(Waiting branch, std::size_t graze, int came) {
+  branch.came = came;
+  if (branch.orbit.impacts[graze].event != EventKind::impact) branch.opens = {Opening::Kind::contact, graze};
+  return branch;
+}
+
 Waiting daughter_at(const BranchPoint& at, std::size_t special, std::int64_t generation) {
   const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.repeated(2);
   const Vector direction = direction_of_daughter(at.scene, at.orbit, daughter, speed_scale(at.scene, daughter));
@@ -62,7 +68,7 @@ Waiting daughter_at(const BranchPoint& at, std::size_t special, std::int64_t gen
 
 std::optional<Waiting> with_each(const BranchPoint& at, std::size_t graze, bool symmetric_scene, std::size_t special,
                                  std::int64_t generation) {
-  if (at.orbit.meets_soft_stop()) return std::nullopt;
+  if (at.orbit.impacts[graze].event != EventKind::impact) return std::nullopt;  // of a soft stop: they join
   const Orbit once = at.orbit.once_with_graze(graze, symmetric_scene);
   if (once.half_turns == at.orbit.half_turns) return std::nullopt;
   return Waiting{at.scene, once, {}, special, generation};
@@ -76,8 +82,23 @@ std::optional<CurvePoint> point_near(const OrbitEquations& equations, const Vect
   return along ? std::optional(CurvePoint{*at, *along, 0.0}) : std::nullopt;
 }
 
+namespace {
+
+/// The point of a branch that is nearest to `guess`, for a branch that runs across the parameter there.
+std::optional<CurvePoint> nearest_point(const OrbitEquations& equations, const Vector& guess, double tolerance) {
+  Vector axis(equations.unknowns(), 0.0);
+  axis.back() = 1;
+  auto across = tangent(equations, guess, axis);
+  const auto at = across ? corrected(equations, guess, *across, tolerance) : std::nullopt;
+  auto along = at ? tangent(equations, *at, *across) : std::nullopt;
+  return along ? std::optional(CurvePoint{*at, *along, 0.0}) : std::nullopt;
+}
+
+}  // namespace
+
 CurvePoint start_near(const OrbitEquations& equations, const Vector& guess, double tolerance) {
   auto start = point_near(equations, guess, tolerance);
+  if (!start) start = nearest_point(equations, guess, tolerance);
   if (!start)
     throw StartError(
         "Newton's method does not converge from the motion at the start; move it away from a special point");

@@ -166,7 +166,7 @@ std::optional<Opened> opened_once(const Equations& equations, const FollowedScen
   const OrbitImpact& event = orbit.impacts[opening.event];
   const double of_stop = halts(event.event) ? 0.0 : p.soft_stop(event.side).stiffness;
   const double rate = std::max(p.oscillator.frequency, std::sqrt(std::abs(p.oscillator.stiffness) + of_stop));
-  for (const double turned_by : {1e-3, 1e-2, 1e-4, 1e-5}) {
+  for (const double turned_by : {1e-3, 1e-2, 1e-4, 1e-5, 1e-6, 1e-7}) {
     const auto lasting =
         with_lasting(equations, scene, orbit, opening, p.oscillator.frequency / rate * turned_by, tolerance);
     if (!lasting) continue;

@@ -52,7 +52,7 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
     const auto distance = [&, rounding](const CurvePoint& p) {
       const ImpactMap map = impact_map(equations.scene_at(p.at), equations.orbit_at(p.at));
       const double off = map.distance_to(-1);
-      return std::abs(off) <= rounding * std::abs(map.denominator) ? std::copysign(off, map.denominator) : off;
+      return std::abs(off) <= rounding * std::abs(map.denominator) ? rounding * map.denominator : off;
     };
     look(loses, distance, false, begin);
   }
