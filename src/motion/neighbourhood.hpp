@@ -171,12 +171,18 @@ class Neighbourhood {
   }
   /// The bound of differences in a flight, where it begins.
   void begin_flight(double reach) { flight_from_ = now_, reach_ = least_reach_ = reach; }
-  /// Lets it grow to one that holds to the end of an arc (eq. 48); it has to hold from the departure on.
+  /// Lets it grow to one that holds to the end of an arc (eq. 48); it has to hold from the departure on. An arc that a
+  /// section cuts off just after that may be clear of the smaller one, and the next one not yet of this.
   void grow(double begin) {
-    const double growth = field_.growth(now_ - flight_from_);
+    const double growth = field_.growth(now_ - flight_from_), was_clear_from = clear_from_;
     if (!(growth > 1)) return;
     reach_ = growth * least_reach_;
-    if (clear_from_ > begin) holds_ = holds_ && leaves();
+    if (approached_ != Side::none || departure_.speed + departure_.pull == 0) return;
+    const bool all_leave = leaves();
+    if (was_clear_from > begin)
+      holds_ = holds_ && all_leave;
+    else if (!all_leave)
+      clear_from_ = was_clear_from;
   }
 
   [[nodiscard]] double size() const { return first_order_.size() + remainder_.size() + rounding_; }

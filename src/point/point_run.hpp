@@ -151,9 +151,10 @@ class Point {
       return std::max(std::abs(a.x - b.x), std::abs(a.v - b.v)) <= same * size;
     };
     const steady::SectionNumbers here{state.x, state.v}, there{section.x, section.v};
-    if (!are_near(here, there)) {  // perhaps an impact falls on the section, and one of them is before it
+    if (here.v * there.v < 0 || !are_near(here, there)) {
       const steady::BeyondContact beyond_contact(problem_, integrator_.period());
-      return are_near(beyond_contact(here), beyond_contact(there));
+      const bool on_impact = beyond_contact.is_beside(there.x, there.v);  // which one of them is before
+      if (on_impact || !are_near(here, there)) return are_near(beyond_contact(here), beyond_contact(there));
     }
     if (state.chatters || state.v == 0 || state.within != section.within) return true;
     const std::int64_t periods = state.periods;

@@ -11,10 +11,8 @@ import unittest
 import h5py
 import numpy as np
 
-from command_line import CommandLine, runs_here
 from scene_runs import numbers
-
-ARCHITECTURES = ("scalar", *(name for name in ("sse2", "avx2", "avx512") if runs_here(name)))
+from section_runs import ARCHITECTURES, SectionRuns
 
 # A ball on a table that moves up and down, elastic: it leaves the table at the phase pi/2 with the speed pi, and is
 # back a period later, for any f. Its map has the trace 2 - 4 f.
@@ -190,14 +188,7 @@ stability = true
 """
 
 
-class ContactOnSection(CommandLine):
-    def run_on(self, arch, text, name="scene"):
-        done = self.clatter(
-            "run", self.write(f"{name}.toml", text), "--force", "-q", environment={"CLATTER_ARCH": arch}
-        )
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return h5py.File(self.directory / f"{name}.h5")
-
+class ContactOnSection(SectionRuns):
     def test_an_elastic_ball_strikes_the_table_once_a_period(self):
         for arch in ARCHITECTURES:
             with self.subTest(arch=arch), self.run_on(arch, BALL) as file:

@@ -93,6 +93,41 @@ void expect_proofs(const Tally& tally) {
   EXPECT_GT(tally.tightest, 0.1);  // the bounds aren't far from the remainders
 }
 
+/// A proof on one side and the other of an instant.
+template <Effects effects>
+bool holds_in_two(const point::Problem& scene, State<double> state, double cut, double turns, double size) {
+  stepping::Exact<double, effects> integrator(scene);
+  Neighbourhood neighbourhood(scene.stops, Ellipse::disc(size), 64 * ulp, false, pace_of(scene.oscillator));
+  EXPECT_EQ(run_for(integrator, state, cut, neighbourhood), stepping::Outcome::completed);
+  EXPECT_EQ(run_for(integrator, state, turns - cut, neighbourhood), stepping::Outcome::completed);
+  return neighbourhood.holds();
+}
+
+/// Where the force is far faster than the spring, differences grow in a flight, and are larger in an arc that lasts.
+TEST(Neighbourhood, a_section_just_after_an_impact_takes_no_proof) {
+  constexpr Effects effects = effect_sets::complete(Damping::light, Forcing::regular);
+  int held = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    support::Random random(97, i);
+    const double nu = random.uniform(5, 50), unit = nu * nu;
+    point::Problem scene = support::scene_of({1e-3, unit * random.uniform(0.1, 0.4), nu, -0.1 * unit}, 0, 1e3, 0);
+    scene.stops.restitution_lower = random.uniform(0.3, 0.9);
+    const State<double> from = at(random.uniform(0.1, 0.5), nu * random.uniform(-1, 1));
+    const double turns = 1.5, size = 1e-13;
+    stepping::Exact<double, effects> integrator(scene);
+    support::Recorder log;
+    State<double> state = from;
+    ASSERT_EQ(run_for(integrator, state, turns, log), stepping::Outcome::completed) << i;
+    if (log.impacts.empty()) continue;
+    const double at_impact = log.impacts.front().time / integrator.period();
+    if (!holds_in_two<effects>(scene, from, 0.5 * at_impact, turns, size)) continue;
+    ++held;
+    for (double later = 1e-15; later < 1e-3; later *= 1.7)
+      EXPECT_TRUE(holds_in_two<effects>(scene, from, at_impact + later, turns, size)) << i << ' ' << later;
+  }
+  EXPECT_GT(held, 50);
+}
+
 TEST(Neighbourhood, encloses_all_motions_that_begin_in_it) {
   expect_proofs(enclose<effect_sets::complete(Damping::light, Forcing::regular)>(21, 1e-4, 0.8));
   expect_proofs(enclose<effect_sets::complete(Damping::light, Forcing::secular)>(22, 1e-4, 0.06));
