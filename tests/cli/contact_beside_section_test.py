@@ -9,7 +9,7 @@ import numpy as np
 
 from section_runs import ARCHITECTURES, SectionRuns
 
-# Started on one of the last impacts of a chatter, by which the velocity changes less than double tells from more digits.
+# Started on one of the last impacts of a chatter, which changes the velocity by as little as other digits do.
 IN_CHATTER = """[scene]
 h = 1.2440021130988383
 f = 1

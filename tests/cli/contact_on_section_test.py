@@ -8,7 +8,6 @@ import math
 import random
 import unittest
 
-import h5py
 import numpy as np
 
 from scene_runs import numbers
