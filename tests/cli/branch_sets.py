@@ -51,13 +51,13 @@ class Sets:
             for i, text in enumerate(texts):
                 self.begin_again(i, text, parameter_of(text))
 
-    def configuration(self, scene, way=Way(), periods=600):
+    def configuration(self, scene, way=Way()):
         values = way.keys_of(scene)
         key = "nu" if "nu" in values else "frequency"
         low, high = 0.85 * values[key], 1.15 * values[key]
         branch = f'[branch]\nalong = "{key}"\nrange = [{low!r}, {high!r}]\nswitch = 1\nmax_points = {MOST}\n'
         lines = "".join(f"{name} = {value!r}\n" for name, value in values.items())
-        return f"{way.section}{lines}[time]\nmax_periods = {periods}\nmax_impacts = 20000\n{OBSERVED}{branch}", key
+        return f"{way.section}{lines}[time]\nmax_periods = 600\nmax_impacts = 20000\n{OBSERVED}{branch}", key
 
     def follow(self, text, key, scale=1.0, words=()):
         """The special points by branch, the points of each branch, and the file; CUT if they are too many, None if
@@ -86,15 +86,11 @@ class Sets:
         if found is None:
             return
         everything, branch, output = found
-        # by rounding a machine may settle a little later than the scene, so it has more time; if its motion is chaotic
-        # until then, it may take any time, and begins with the motion that the scene settled on
-        other, name = self.configuration(scene, machine(), periods=1200)
+        # begun with the motion that the scene settled on: the other one may settle on another, if chaos decides
+        there, period = self.settled(scene, output)
+        other, name = self.configuration(there, machine())
+        in_si = self.follow(other, name, 2 * np.pi, ("--set", f"branch.period={period}"))
         met = set(range(int(branch.max()) + 1))
-        in_si = self.follow(other, name, 2 * np.pi)
-        if in_si is None:
-            there, period = self.settled(scene, output)
-            other, name = self.configuration(there, machine())
-            in_si = self.follow(other, name, 2 * np.pi, ("--set", f"branch.period={period}"))
         self.same("as a machine", i, in_si, everything, met, text)
         if in_si and in_si is not CUT:
             self.same("as a scene", i, found, in_si[0], set(range(int(in_si[1].max()) + 1)), other)
@@ -115,9 +111,9 @@ class Sets:
                 continue
             words = ("--from", output, "--where", f"point={middle}")
             met = {number}
-            for kind, _, numbers in specials:
+            for kind, at, numbers in specials:
                 if number in numbers:
-                    met |= {n for n in numbers if kind in BORN or self.is_reached(output, number, n)}
+                    met |= {n for n in numbers if kind in BORN or self.is_reached(output, number, n, key, at)}
             self.same(f"begun again from branch {number}", i, self.follow(text, key, words=words), specials, met, text)
         return found
 
@@ -146,15 +142,17 @@ class Sets:
         return not is_beside and np.hypot(*parts).max() <= STRETCHED
 
     @staticmethod
-    def is_reached(output, number, other):
+    def is_reached(output, number, other, key, at):
         """Whether a branch that meets another one is followed from there: motion that comes to one that repeats sooner,
         or is symmetric, at a graze or a change of halts isn't. There its repetitions may each have the change or not,
-        so that motions of any number of them begin.
+        so that motions of any number of them begin. Motion that has no speed left at any impact has the period 1.
         """
         with h5py.File(output) as data:
+            speed = data["special_impact_speed"][np.argmin(np.abs(data["special_" + key][()] - at))]
             first = [np.flatnonzero(data["branch"][()] == n)[0] for n in (number, other)]
             periods, symmetric = data["period_ratio"][()][first], data["symmetric"][()][first]
-        return periods[1] <= periods[0] and not (symmetric[0] == 1 and symmetric[1] == 0)
+        longest = periods[0] if speed > 1e-9 else 1
+        return periods[1] <= longest and not (symmetric[0] == 1 and symmetric[1] == 0)
 
     def same(self, relation, i, again, specials, met, text):
         """All special points of these branches are in another set."""
