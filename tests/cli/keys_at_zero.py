@@ -199,8 +199,8 @@ class Zeros:
 
 def is_slight(runs, i, scene):
     """Whether a contact lasts by rounding alone. Without spring and load a mass comes ever nearer to the graze of its
-    soft stop: no motion with a contact repeats, as the stop only pushes; and without one it may be anywhere. What it
-    pushes by is lost in the rounding of the velocity while its speed is still 1e-5 of that.
+    soft stop: no motion with a contact repeats, as the stop only pushes; and without one it may be anywhere. The push
+    is lost in the rounding of the velocity at a speed of 1e-5 of that already.
     """
     slight = 1e-5 if scene.stiffness == scene.load == 0 else 1e-7
     return bool(np.any(runs["impact_speed"][i] < slight * sizes(runs, "v")[i]))
