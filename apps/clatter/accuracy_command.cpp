@@ -76,7 +76,6 @@ int run_accuracy(const Arguments& arguments) {
   const ProgressKind shown = progress_kind(arguments);
   const std::string output = output_of(arguments, ".accuracy.h5");
   const config::Config config = config_of(arguments);
-  check_not_config(arguments.operands[0], output);
   check_starts(config, arguments.operands[0]);
   const results::OutputPlace place(output, {.command = "accuracy", .title = config.title}, arguments.has("force"));
   storage::require_idle(output);

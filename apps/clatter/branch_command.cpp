@@ -66,7 +66,6 @@ void tell_left_out(const branches::Branches& found) {
 int run_branch(const Arguments& arguments) {
   const std::string output = output_of(arguments, ".branch.h5");
   const auto [config, file, note] = branch_start_of(arguments);
-  if (!arguments.operands.empty()) check_not_config(file, output);
   if (const auto from = arguments.value("from")) check_not_input(*from, output, "the one of --from");
   const branches::BranchSettings& settings = *config.branch;
   const results::OutputPlace place(output, {.command = "branch", .title = config.title}, arguments.has("force"));

@@ -59,7 +59,7 @@ Outcome outcome_of(const std::string& path, const std::vector<Condition>& condit
 int certify(const Arguments& arguments) try {
   const auto conditions = conditions_of(arguments);
   const std::optional<std::size_t> sample = sample_of(arguments);
-  const std::optional<std::string> output = text_output_of(arguments);
+  const std::optional<std::string> output = text_output_of(arguments, FileKind::certificates);
   std::string text;
   const auto write = [&](std::string_view line) {
     if (output)

@@ -33,6 +33,7 @@ struct Command {
   std::string_view usage;                  ///< "run CONFIG [OPTION]..."
   std::string_view summary;                ///< one line for the list of commands
   std::string_view examples;               ///< end its help
+  std::string_view notes{};                ///< that its options don't tell; empty: none
   std::vector<std::string_view> operands;  ///< names of its positional arguments, e.g. "CONFIG"
   bool repeats_last = false;               ///< the last operand may be given several times
   std::size_t required_operands = 0;

@@ -3,15 +3,38 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
+#include <vector>
 
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::app {
+namespace {
+
+/// Endings of names that say of what kind a file is.
+constexpr std::array<std::string_view, 24> endings{".h5",   ".hdf5",  ".hdf", ".nc",   ".csv", ".tsv",  ".txt", ".dat",
+                                                   ".json", ".jsonl", ".mat", ".npz",  ".xls", ".xlsx", ".ods", ".svg",
+                                                   ".png",  ".html",  ".pdf", ".toml", ".ini", ".py",   ".md",  ".zip"};
+constexpr std::array<std::string_view, 10> like_tables{".tsv", ".txt", ".dat", ".json", ".jsonl",
+                                                       ".mat", ".npz", ".xls", ".xlsx", ".ods"};
+
+/// A kind of file that is written: what it is, and the endings that it may have, the usual one first.
+struct Written {
+  std::string_view words;
+  std::vector<std::string_view> endings;
+};
+const std::array<Written, 4> written_kinds{{{"results are HDF5", {".h5", ".hdf5", ".hdf", ".nc"}},
+                                            {"a table is CSV, which spreadsheets open, too", {".csv", ".txt", ".dat"}},
+                                            {"certificates are JSON, one a line", {".jsonl", ".json", ".txt"}},
+                                            {"a configuration is TOML", {".toml", ".txt"}}}};
+
+}  // namespace
 
 std::vector<config::Override> overrides_of(const Arguments& arguments) {
   std::vector<config::Override> overrides;
@@ -84,20 +107,21 @@ std::string output_of(const Arguments& arguments, const std::string& ending) {
   if (config == config::standard_input && !arguments.has("output"))
     throw UsageError("a configuration from stdin has no name to give the output; name it with -o FILE.h5");
   const std::string output = arguments.value("output").value_or(config.stem().string() + ending);
-  check_name_of_results(output);
+  if (!arguments.operands.empty()) check_not_config(arguments.operands[0], output);
+  check_name(output, FileKind::results);
   return output;
 }
 
-void check_name_of_results(const std::string& output) {
-  constexpr std::string_view others[] = {".csv", ".tsv",  ".txt", ".dat", ".json", ".jsonl", ".mat",
-                                         ".npz", ".xlsx", ".ods", ".svg", ".png",  ".html",  ".pdf"};
-  const std::filesystem::path path(output);
-  const bool is_other =
-      std::ranges::any_of(others, [&](std::string_view ending) { return config::has_ending(output, ending); });
-  if (!is_other) return;
-  const std::string own = std::filesystem::path(path).replace_extension(".h5").string();
-  throw UsageError("-o " + storage::quoted_name(output) + ": results are HDF5; write -o " + storage::printable(own) +
-                   ", and then e.g. clatter export " + storage::printable(own) + " -o FILE.csv");
+void check_name(const std::string& output, FileKind kind) {
+  const Written& written = written_kinds[static_cast<std::size_t>(kind)];
+  const auto has = [&](std::string_view ending) { return config::has_ending(output, ending); };
+  if (std::ranges::none_of(endings, has) || std::ranges::any_of(written.endings, has)) return;
+  std::filesystem::path path(output);
+  const std::string own = storage::printable(path.replace_extension(written.endings.front()).string());
+  const bool is_table = has(".csv") || std::ranges::any_of(like_tables, has);
+  throw UsageError(
+      "-o " + storage::quoted_name(output) + ": " + std::string(written.words) + "; write -o " + own +
+      (kind == FileKind::results && is_table ? ", and then e.g. clatter export " + own + " -o FILE.csv" : ""));
 }
 
 void check_not_config(const std::string& config, const std::string& output) {

@@ -59,8 +59,12 @@ inline const Option progress_option{
 /// ending. Throws UsageError if there is neither.
 [[nodiscard]] std::string output_of(const Arguments& arguments, const std::string& ending);
 
-/// Throws UsageError if the name of an output is one of another kind of file: results are HDF5.
-void check_name_of_results(const std::string& output);
+/// The kinds of files that the program writes.
+enum class FileKind { results, table, certificates, configuration };
+
+/// Throws UsageError if the name of an output is one of another kind of file, with the name to write: results are HDF5,
+/// tables CSV.
+void check_name(const std::string& output, FileKind kind);
 
 /// Throws UsageError if the output would replace the configuration.
 void check_not_config(const std::string& config, const std::string& output);

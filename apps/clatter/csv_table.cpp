@@ -7,6 +7,7 @@
 #include "config/suggestion.hpp"
 #include "csv_text.hpp"
 #include "motion_rows.hpp"
+#include "result_names.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
 
@@ -25,6 +26,20 @@ ColumnKind kind_of(const CsvTable::Column& column) {
   if (!column.meanings.empty()) return ColumnKind::flags;
   const bool is_text = std::holds_alternative<std::vector<std::string>>(column.variable->values);
   return is_text ? ColumnKind::texts : ColumnKind::numbers;
+}
+
+/// What the names of variables that have a value for each row begin with.
+std::string_view prefix_of(TableRows rows) {
+  switch (rows) {
+    case TableRows::impacts:
+      return impact_prefix;
+    case TableRows::motions:
+      return motion_prefix;
+    case TableRows::special:
+      return special_prefix;
+    default:
+      return {};
+  }
 }
 
 void append_row(Pieces& pieces, const std::vector<CsvTable::Column>& columns, const std::vector<std::size_t>& at,
@@ -53,8 +68,11 @@ CsvTable::CsvTable(const results::FileSummary& summary, const std::string& path,
   if (choice_.rows == TableRows::motions) motions_ = motion_variables(summary_, path_);
   std::vector<std::string> known = results_in_file();
   known.insert(known.end(), motions_.begin(), motions_.end());
-  for (const std::string& name : choice_.only)  // axes have columns whatever is chosen
-    if (std::ranges::find(axes_, name) == axes_.end()) require_known(name, known);
+  for (std::string& name : choice_.only) {
+    if (std::ranges::find(axes_, name) != axes_.end()) continue;  // axes have columns whatever is chosen
+    const std::string typed = std::exchange(name, name_in_file(summary_, name, prefix_of(choice_.rows)));
+    if (std::ranges::find(axes_, name) == axes_.end()) require_known(typed, name, known);
+  }
   const auto is_left_out = [&](const std::string& name) { return !choice_.only.empty() && !is_named(name); };
   std::erase_if(motions_, is_left_out);
   results_ = results_in_file();
@@ -108,12 +126,23 @@ void CsvTable::refuse_rows(const std::string& option, const std::string& lack, c
                     (holds_branches(summary_) ? "no branch has one" : "run its configuration with --set " + setting));
 }
 
-void CsvTable::require_known(const std::string& name, const std::vector<std::string>& known) const {
+/// Whether a result has a column for each of several components.
+bool CsvTable::has_components(const std::string& name) const {
+  return !is_ragged() && std::ranges::find(motions_, name) == motions_.end() &&
+         find(name)->dimensions.size() > rows_.size();
+}
+
+void CsvTable::require_known(const std::string& typed, const std::string& name,
+                             const std::vector<std::string>& known) const {
   const ComponentName part(name);
-  if (std::ranges::find(known, part.variable) != known.end()) return;
+  const std::string option = "--only: " + config::in_quotes(typed);
   const std::vector<std::string_view> names(known.begin(), known.end());
-  throw ChoiceError("--only: " + config::in_quotes(name) + " is no column of " + storage::quoted_name(path_) +
-                    config::suggestion(part.variable, names, "; there are "));
+  if (std::ranges::find(known, part.variable) == known.end())
+    throw ChoiceError(option + " is no column of " + storage::quoted_name(path_) +
+                      config::suggestion(part.variable, names, "; there are "));
+  if (part.component && !has_components(part.variable))
+    throw ChoiceError(option + " is no component of " + config::in_quotes(ComponentName(typed).variable) +
+                      ", which has one value a row");
 }
 
 /// Whether --only names a result or a component of it.
@@ -146,16 +175,19 @@ std::vector<CsvTable::Column> CsvTable::columns_of(const std::string& name, cons
   const std::vector<results::NamedLength>& dimensions = find(name)->dimensions;
   if (is_ragged() || dimensions.size() == rows_.size()) return {{name, &variable, meanings_of(variable)}};
   const results::NamedLength& along = dimensions.back();
+  std::vector<std::string> all;
+  for (std::size_t part = 0; part < along.length; ++part)
+    all.push_back(name + '[' + component_name(dataset, along.name, part) + ']');
+  for (const std::string& only : choice_.only)
+    if (ComponentName(only).variable == name && only != name && std::ranges::find(all, only) == all.end())
+      throw ChoiceError("--only: " + config::in_quotes(only) + " is no component; there are " +
+                        component_names(dataset, name, along));
   std::vector<Column> columns;
   for (std::size_t part = 0; part < along.length; ++part) {
-    const std::string full = name + '[' + component_name(dataset, along.name, part) + ']';
-    const auto names_it = [&](const std::string& only) { return only == name || only == full; };
+    const auto names_it = [&](const std::string& only) { return only == name || only == all[part]; };
     if (choice_.only.empty() || std::ranges::any_of(choice_.only, names_it))
-      columns.push_back({full, &variable, meanings_of(variable), along.length, part});
+      columns.push_back({all[part], &variable, meanings_of(variable), along.length, part});
   }
-  if (columns.empty())
-    throw ChoiceError("--only: " + config::in_quotes(choice_.only.front()) + " is no component; there are " +
-                      component_names(dataset, name, along));
   return columns;
 }
 
@@ -235,6 +267,7 @@ std::vector<std::size_t> CsvTable::rows_of_points(const results::Dataset& datase
 /// Whether `where` chooses each point; of motions only the first that ends in each.
 std::vector<bool> CsvTable::chosen(const results::Dataset& dataset) const {
   std::vector<bool> chosen = filter_.chosen(dataset);
+  filter_.require_some(chosen, dataset);
   if (choice_.rows == TableRows::motions) MotionRows(summary_, path_, dataset).keep_first(chosen);
   return chosen;
 }

@@ -65,7 +65,8 @@ class CsvTable {
   [[nodiscard]] const results::FileSummary::Entry* find(std::string_view name) const;
   [[nodiscard]] std::vector<std::string> results_in_file() const;
   [[noreturn]] void refuse_rows(const std::string& option, const std::string& lack, const std::string& setting) const;
-  void require_known(const std::string& name, const std::vector<std::string>& known) const;
+  void require_known(const std::string& typed, const std::string& name, const std::vector<std::string>& known) const;
+  [[nodiscard]] bool has_components(const std::string& name) const;
   [[nodiscard]] bool is_named(const std::string& name) const;
   void collect_variables();
   [[nodiscard]] std::vector<Column> columns_of(const std::string& name, const results::Dataset& dataset) const;

@@ -51,7 +51,7 @@ TableChoice choice_of(const Arguments& arguments) {
 int export_table(const Arguments& arguments) try {
   const std::string& path = arguments.operands[0];
   const TableChoice choice = choice_of(arguments);
-  const std::optional<std::string> output = text_output_of(arguments);
+  const std::optional<std::string> output = text_output_of(arguments, FileKind::table);
   const results::FileSummary summary = outputs::read_summary(path);
   const CsvTable table(summary, path, choice);
   const results::Dataset dataset = results::read_variables(path, table.variables());
@@ -68,14 +68,21 @@ int export_table(const Arguments& arguments) try {
   throw UsageError(error.what());
 }
 
+constexpr std::string_view notes =
+    "Numbers are those of the file: work, losses and impulse in the observed time, which `clatter info` and pictures "
+    "give per forcing period. tau of samples and of impacts is the time since the observed time began, in s of a "
+    "[machine], else in units of one over the natural frequency, so that a forcing period is 2 pi/nu. A result has one "
+    "name for --only and --where in all rows, e.g. word; the names in the file, impact_word or special_word, are "
+    "understood, too.";
+
 constexpr std::string_view examples =
     "  clatter export fig22.h5 > fig22.csv\n"
     "  clatter export map.h5 --only x_max,v_before[-1] --where nu=1.0 -o part.csv\n"
     "  clatter export drive.h5 --where gap='1.5 mm'\n"
-    "  clatter export map.h5 --where 'impact_speed < 0.4' --where impact_word=LU\n"
+    "  clatter export map.h5 --where 'impact_speed < 0.4' --where word=LU\n"
     "  clatter export fig18.h5 --impacts\n"
-    "  clatter export basins.h5 --motions --only motion_word,motion_share\n"
-    "  clatter export curve.branch.h5 --special\n";
+    "  clatter export basins.h5 --motions --only word,share\n"
+    "  clatter export curve.branch.h5 --special --where kind=fold\n";
 
 }  // namespace
 
@@ -84,13 +91,14 @@ Command export_command() {
           .usage = "export FILE.h5 [OPTION]...",
           .summary = "print an output file as CSV for gnuplot, R and spreadsheets",
           .examples = examples,
+          .notes = notes,
           .operands = {"FILE.h5"},
           .required_operands = 1,
           .options = {{"only", 0, "NAME,...", "columns of these results, or components like v_before[-1]; repeatable",
                        true},
                       where_option,
                       {"impacts", 0, "", "one row for each logged impact instead of one for each point"},
-                      {"samples", 0, "", "one row for each sample of the trajectories: time, x, v, ..."},
+                      {"samples", 0, "", "one row for each sample of the trajectories: tau, x, v, ..."},
                       {"motions", 0, "", "one row for each motion that starts end in, with its share"},
                       {"special", 0, "", "one row for each special point of branches instead of one for each point"},
                       {"output", 'o', "FILE.csv", "output file; default: standard output"},

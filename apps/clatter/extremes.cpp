@@ -11,6 +11,7 @@
 #include "config/suggestion.hpp"
 #include "csv_text.hpp"
 #include "file_points.hpp"
+#include "result_names.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
 
@@ -55,11 +56,11 @@ Extremes::Extremes(const results::FileSummary& summary, const std::string& path,
                    Choice choice)
     : summary_(summary),
       path_(path),
-      named_(name),
+      named_(name_in_file(summary, name)),
       is_largest_(largest),
       choice_(std::move(choice)),
       of_points_(dimensions_of_points(summary, path)),
-      result_(&require_result(ComponentName(name).variable)) {
+      result_(&require_result(ComponentName(named_).variable)) {
   for (const results::NamedLength& dimension : result_->dimensions) {
     const bool is_of_points = is_in(of_points_, dimension) || dimension.name == special_points;
     (is_of_points ? places_ : parts_).push_back(dimension);
@@ -166,6 +167,7 @@ std::vector<Extremes::Candidate> Extremes::candidates(const results::Dataset& da
   const std::vector<bool> wanted = wanted_parts(dataset);
   const std::vector<std::uint8_t>* const status = results::values_of<std::uint8_t>(dataset, "status");
   const std::vector<bool> is_chosen = filter_->chosen(dataset);
+  filter_->require_some(is_chosen, dataset);
   std::vector<Candidate> found;
   for (std::size_t point = 0; point < points_of(places_); ++point) {
     const bool is_counted =

@@ -64,8 +64,14 @@ bool is_own_coordinate(const Entry& entry) {
   return entry.dimensions.size() == 1 && entry.dimensions[0].name == entry.name;
 }
 
-ComponentName::ComponentName(const std::string& name) : variable(name.substr(0, name.find('['))) {
-  if (name.ends_with(']')) component = name.substr(variable.size() + 1, name.size() - variable.size() - 2);
+bool is_of_motions(const Entry& entry) {
+  return entry.dimensions.size() == 1 && entry.dimensions[0].name == ended_motions && !is_own_coordinate(entry);
+}
+
+ComponentName::ComponentName(const std::string& name) : variable(name) {
+  const std::size_t at = name.find('[');
+  if (at == std::string::npos || !name.ends_with(']')) return;
+  variable.resize(at), component = name.substr(at + 1, name.size() - at - 2);
 }
 
 std::string component_name(const results::Dataset& dataset, const std::string& dimension, std::size_t part) {

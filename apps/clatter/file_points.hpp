@@ -21,9 +21,10 @@ class ChoiceError : public std::runtime_error {
 };
 
 /// The dimensions of points and special points in files of branches, and what the names of the latter's variables
-/// begin with; the dimensions of a log of impacts, of the motions that starts end in, and of a trajectory.
+/// begin with; likewise a log of impacts, and the motions that starts end in; the dimension of a trajectory.
 inline constexpr std::string_view branch_points = "point", special_points = "special", special_prefix = "special_",
-                                  logged_impacts = "impact", ended_motions = "motion", trajectory_samples = "sample";
+                                  logged_impacts = "impact", impact_prefix = "impact_", ended_motions = "motion",
+                                  motion_prefix = "motion_", trajectory_samples = "sample";
 
 /// The variable of that name; nullptr: the file has none.
 [[nodiscard]] const results::FileSummary::Entry* find_variable(const results::FileSummary& summary,
@@ -51,6 +52,9 @@ inline constexpr std::string_view branch_points = "point", special_points = "spe
 
 /// Whether a variable only numbers a dimension, as `stop` does.
 [[nodiscard]] bool is_own_coordinate(const results::FileSummary::Entry& entry);
+
+/// Whether a variable has a value for each motion that starts end in, whatever the parameters.
+[[nodiscard]] bool is_of_motions(const results::FileSummary::Entry& entry);
 
 /// The name of a result, and of which component: "v_before[-1]" is {"v_before", "-1"}.
 struct ComponentName {

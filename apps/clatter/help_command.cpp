@@ -109,7 +109,8 @@ std::string command_help(const Command& command) {
   std::vector<Row> rows;
   for (const Option& option : command.options) rows.push_back(row_of(option));
   return "clatter " + std::string(command.usage) + "\n\n" + config::wrapped(command.summary, 0) + "\nOptions\n" +
-         table(rows) + "\nExamples\n" + std::string(command.examples);
+         table(rows) + (command.notes.empty() ? "" : "\nNotes\n  " + config::wrapped(command.notes, 2)) +
+         "\nExamples\n" + std::string(command.examples);
 }
 
 std::string program_help() {

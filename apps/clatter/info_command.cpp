@@ -181,12 +181,16 @@ int print_info(const Arguments& arguments) try {
   throw UsageError(error.what());
 }
 
+constexpr std::string_view notes =
+    "Work, losses and impulse are those of one forcing period here, as in pictures, so that points compare; the file "
+    "and `clatter export` have those of the observed time.";
+
 constexpr std::string_view examples =
     "  clatter info fig22.h5\n"
     "  clatter info fig22.h5 --max impact_speed\n"
     "  clatter info fig22.h5 --max impact_speed --periodic\n"
     "  clatter info map.h5 --max impact_speed --for xs --where 'nu < 1.2'\n"
-    "  clatter info fig22.h5 --ranges impact_word --refine\n"
+    "  clatter info fig22.h5 --ranges word --refine\n"
     "  clatter info drive.h5 --where 'impact_speed < 0.4 m/s' --in rpm\n"
     "  clatter info fig22.h5 --config > again.toml\n"
     "  clatter info --check fig22.h5 && echo sound\n";
@@ -198,6 +202,7 @@ Command info_command() {
           .usage = "info FILE.h5 [OPTION]...",
           .summary = "print the contents of an output file and how it was made",
           .examples = examples,
+          .notes = notes,
           .operands = {"FILE.h5"},
           .required_operands = 1,
           .options = {{"max", 0, "NAME",
@@ -208,8 +213,8 @@ Command info_command() {
                       {"ranges", 0, "NAME",
                        "print from where to where along an axis this result, a name or a count, stays the same"},
                       {"where", 0, "CONDITION",
-                       "print the ranges and the share of points that meet this, e.g. 'impact_speed < 0.4 m/s'; with "
-                       "the others: of these points alone; repeatable",
+                       "print the ranges and the share of points that meet this, e.g. 'impact_speed < 0.4 m/s' or "
+                       "word=LU; with the others: of these points alone; repeatable",
                        true},
                       {"along", 0, "AXIS", "with --ranges or --where: the axis; default: the longest"},
                       {"refine", 0, "",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "common_options.hpp"
 #include "config/config.hpp"
 #include "config/suggestion.hpp"
 #include "config/wrapped.hpp"
@@ -93,6 +94,7 @@ int write_model(const Arguments& arguments) {
     std::cout << model.text;
     return done;
   }
+  check_name(path, FileKind::configuration);
   storage::check_writable(path);
   const auto refuse = [&] { refuse_existing(path); };
   refuse();

@@ -128,6 +128,9 @@ std::string ranges_json(const Ranges& ranges, const std::vector<RangeLine>& line
                          {"to", numbers_json(range.to)},
                          {"points", range.points}});
     json["lines"].push_back({{"at", numbers_json(line.at)}, {"ranges", of_line}});
+    for (const Gap& gap : line.gaps)
+      json["lines"].back()["gaps"].push_back(
+          {{"after", gap.after}, {"from", numbers_json(gap.from)}, {"to", numbers_json(gap.to)}, {"why", gap.why}});
   }
   return text_of(json, in_lines);
 }

@@ -109,6 +109,7 @@ ManualPage command_page(const Command& command) {
   const std::string synopsis = bold("clatter " + std::string(command.name)) + roff(operands) + '\n';
   return page(page_name(command), '1', command.summary,
               section("SYNOPSIS", synopsis) + section("OPTIONS", option_items(command.options)) +
+                  (command.notes.empty() ? "" : section("NOTES", prose(command.notes))) +
                   examples_section(command.examples) +
                   see_also({reference_to("clatter", '1'), reference_to("clatter-config", '5')}));
 }

@@ -35,7 +35,7 @@ int merge_shards(const Arguments& arguments) {
     throw UsageError("--quiet conflicts with --verbose; give one of them");
   if (!arguments.has("output")) throw UsageError("no output; name it with -o FILE.h5");
   const std::string output = *arguments.value("output");
-  check_name_of_results(output);
+  check_name(output, FileKind::results);
   storage::check_writable(output);
   check_not_shard(arguments.operands, output);
   storage::require_idle(output);

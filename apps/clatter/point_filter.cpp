@@ -1,113 +1,23 @@
 #include "point_filter.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "config/config_error.hpp"
 #include "config/suggestion.hpp"
-#include "config/text_file.hpp"
 #include "csv_text.hpp"
+#include "format.hpp"
+#include "result_names.hpp"
 #include "steady/status.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
+#include "variable_words.hpp"
 
 namespace clatter::app {
-namespace {
-
-constexpr std::array<std::pair<std::string_view, Comparison>, 7> signs{{{"<=", Comparison::at_most},
-                                                                        {">=", Comparison::at_least},
-                                                                        {"!=", Comparison::not_equal},
-                                                                        {"==", Comparison::equal},
-                                                                        {"=", Comparison::equal},
-                                                                        {"<", Comparison::less},
-                                                                        {">", Comparison::greater}}};
-
-constexpr std::string_view examples = "expected e.g. nu=1.0, 'impact_speed < 0.4 m/s' or impact_word=LU";
-
-std::string_view sign_of(Comparison comparison) {
-  if (comparison == Comparison::equal) return "=";
-  return std::ranges::find(signs, comparison, &std::pair<std::string_view, Comparison>::second)->first;
-}
-
-/// Whether a number compares as asked; `same` is the distance of numbers that count as equal. NaN never does.
-bool holds(double number, Comparison comparison, double asked, double same) {
-  const bool is_same = number == asked || std::abs(number - asked) <= same;
-  switch (comparison) {
-    case Comparison::equal:
-      return is_same;
-    case Comparison::not_equal:
-      return !is_same && !std::isnan(number);
-    case Comparison::less:
-      return number < asked && !is_same;
-    case Comparison::at_most:
-      return number < asked || is_same;
-    case Comparison::greater:
-      return number > asked && !is_same;
-    case Comparison::at_least:
-      return number > asked || is_same;
-  }
-  return false;
-}
-
-bool is_text(const results::Variable& variable) {
-  return std::holds_alternative<std::vector<std::string>>(variable.values);
-}
-
-/// The word for each value: the text itself, or the meaning of a flag.
-std::vector<std::string> words_of(const results::Variable& variable) {
-  if (const auto* const texts = std::get_if<std::vector<std::string>>(&variable.values)) return *texts;
-  const std::vector<std::string> meanings = meanings_of(variable);
-  const std::vector<double> flags = numbers_in(variable.values);
-  std::vector<std::string> words(flags.size());
-  for (std::size_t i = 0; i < flags.size(); ++i) append_value(words[i], variable.values, i, meanings);
-  return words;
-}
-
-/// Of a flag, whose words are known, one of them is meant.
-void require_meaning(const Condition& condition, const std::vector<std::string>& meanings) {
-  std::vector<std::string_view> known;
-  for (const std::string& meaning : meanings)
-    if (!meaning.empty()) known.push_back(meaning);
-  if (known.empty() || std::ranges::find(known, condition.word) != known.end()) return;
-  throw ChoiceError("--where " + text_of(condition) + ": no such " + condition.name +
-                    config::suggestion(condition.word, known, "; there are "));
-}
-
-}  // namespace
-
-std::string text_of(const Condition& condition) {
-  return condition.name + std::string(sign_of(condition.comparison)) + condition.word;
-}
-
-Condition condition_of(const std::string& text) {
-  const std::size_t at = text.find_first_of("=<>!");
-  const std::string option = "--where " + config::in_quotes(text);
-  const auto sign = std::ranges::find_if(
-      signs, [&](const auto& one) { return at != std::string::npos && text.substr(at).starts_with(one.first); });
-  const std::string name(config::without_blanks(std::string_view(text).substr(0, std::min(at, text.size()))));
-  if (sign == signs.end() || name.empty()) throw ChoiceError(option + "; " + std::string(examples));
-  Condition condition{name,
-                      sign->second,
-                      {},
-                      config::unquoted(config::without_blanks(std::string_view(text).substr(at + sign->first.size())))};
-  const bool is_word = condition.word.find_first_of("0123456789") == std::string::npos &&
-                       condition.word.find("pi") == std::string::npos && condition.word != "inf" &&
-                       condition.word != "-inf";
-  if (condition.word.empty()) throw ChoiceError(option + ": nothing to compare with; " + std::string(examples));
-  if (is_word) return condition;
-  try {
-    condition.value = config::parse_reading({condition.word, {.source = option}});
-  } catch (const config::ConfigError& error) {
-    const bool is_number = std::string_view("0123456789.+-").find(condition.word.front()) != std::string_view::npos;
-    if (is_number) throw ChoiceError(std::string(error.what()) + "; " + std::string(examples));
-  }
-  return condition;
-}
-
 double number_of(const Condition& condition, const results::FileSummary::Entry& entry, const std::string& path) try {
   if (!condition.value)
     throw ChoiceError("--where " + text_of(condition) + ": " + config::in_quotes(condition.name) +
@@ -133,19 +43,42 @@ PointFilter::PointFilter(const results::FileSummary& summary, std::string path, 
     asked_.push_back(compared(std::move(condition)));
     const auto& [asked, entry, layout] = asked_.back();
     need(entry->name);
+    if (layout == Layout::ended) need("attractor");
     if (layout == Layout::components && find_variable(summary_, entry->dimensions.back().name) != nullptr)
       need(entry->dimensions.back().name);
     const Entry* const status = find_variable(summary_, "status");
     if (layout != Layout::axis && status != nullptr && std::ranges::equal(status->dimensions, rows_, are_same))
       need("status");
   }
+  refuse_contradictions();
+}
+
+/// Throws ChoiceError at two conditions that no value meets.
+void PointFilter::refuse_contradictions() const {
+  const auto are_of_one = [](const Compared& one, const Compared& other) {
+    return one.entry == other.entry &&
+           ComponentName(one.condition.name).component == ComponentName(other.condition.name).component &&
+           !(one.layout == Layout::components && one.entry->dimensions.back().name == "meeting");
+  };
+  const auto contradict = [&](const Compared& one, const Compared& other) {
+    const Condition &first = one.condition, &second = other.condition;
+    if (first.value && second.value && one.entry->type != "string")
+      return exclude(first.comparison, number_of(first, *one.entry, path_), second.comparison,
+                     number_of(second, *one.entry, path_));
+    const bool is_first = first.comparison == Comparison::equal, is_second = second.comparison == Comparison::equal;
+    return (is_first || is_second) && (is_first && is_second) == (first.word != second.word);
+  };
+  for (std::size_t i = 0; i < asked_.size(); ++i)
+    for (std::size_t k = i + 1; k < asked_.size(); ++k)
+      if (are_of_one(asked_[i], asked_[k]) && contradict(asked_[i], asked_[k]))
+        throw ChoiceError("--where " + text_of(asked_[k].condition) + " beside --where " +
+                          text_of(asked_[i].condition) + ": no value meets both; leave one of them out");
 }
 
 /// The variable of that name; of special points also without what their names begin with.
 const PointFilter::Entry* PointFilter::find(const std::string& name) const {
   const bool is_special = rows_.size() == 1 && rows_[0].name == special_points;
-  const Entry* const special = is_special ? find_variable(summary_, std::string(special_prefix) + name) : nullptr;
-  return special != nullptr ? special : find_variable(summary_, name);
+  return find_variable(summary_, name_in_file(summary_, name, is_special ? special_prefix : std::string_view{}));
 }
 
 std::optional<PointFilter::Layout> PointFilter::layout_of(const Entry& entry) const {
@@ -158,12 +91,23 @@ std::optional<PointFilter::Layout> PointFilter::layout_of(const Entry& entry) co
       const bool is_axis = entry.type != "string" && std::ranges::find(axes, entry.name) != axes.end();
       return is_axis ? Layout::axis : Layout::result;
     }
+  const Entry* const numbers = find_variable(summary_, "attractor");
+  if (is_of_motions(entry) && numbers != nullptr && std::ranges::equal(numbers->dimensions, rows_, are_same))
+    return Layout::ended;
   const bool is_over_rows =
       along.size() == rows_.size() + 1 && std::equal(rows_.begin(), rows_.end(), along.begin(), are_same);
   return is_over_rows && entry.type != "string" ? std::optional(Layout::components) : std::nullopt;
 }
 
 void PointFilter::refuse(const std::string& name) const {
+  const ComponentName part(name);
+  const Entry* const whole = find(part.variable);
+  if (whole != nullptr && part.component && layout_of(*whole))
+    throw ChoiceError("--where: " + config::in_quotes(name) + " is no component of " +
+                      config::in_quotes(part.variable) + ", which has one value a point");
+  if (find_variable(summary_, std::string(special_prefix) + part.variable) != nullptr)
+    throw ChoiceError("--where: " + config::in_quotes(name) + " is of special points; " +
+                      "`clatter export --special` chooses among them");
   std::vector<std::string> axes;
   for (const results::NamedLength& row : rows_)
     for (const std::string& axis : coordinates_along(summary_, row)) axes.push_back(axis);
@@ -219,6 +163,23 @@ void PointFilter::keep_along_axis(const Compared& asked, const results::Dataset&
     kept[point] = kept[point] && here[at[dimension]];
 }
 
+/// The values of motions for each point; of a point that ends in none an empty one, NaN of numbers.
+template <class Value>
+std::vector<Value> PointFilter::by_point(const Compared& asked, std::vector<Value> values,
+                                         const results::Dataset& dataset) const {
+  if (asked.layout != Layout::ended) return values;
+  const std::vector<double> numbers = numbers_in(variable_of(dataset, "attractor").values);
+  std::vector<Value> of_points(numbers.size());
+  for (std::size_t point = 0; point < numbers.size(); ++point) {
+    const bool is_known = numbers[point] >= 0 && numbers[point] < static_cast<double>(values.size());
+    if (is_known)
+      of_points[point] = values[static_cast<std::size_t>(numbers[point])];
+    else if constexpr (std::is_same_v<Value, double>)
+      of_points[point] = std::nan("");
+  }
+  return of_points;
+}
+
 /// The numbers of each point: of components the named one, or that which stands for all.
 std::vector<double> PointFilter::of_components(const Compared& asked, const results::Dataset& dataset,
                                                const std::vector<double>& all) const {
@@ -241,7 +202,7 @@ std::vector<double> PointFilter::of_components(const Compared& asked, const resu
 
 std::vector<double> PointFilter::numbers_of(const Compared& asked, const results::Dataset& dataset) const {
   std::vector<double> all = numbers_in(variable_of(dataset, asked.entry->name).values);
-  return asked.layout == Layout::components ? of_components(asked, dataset, all) : all;
+  return asked.layout == Layout::components ? of_components(asked, dataset, all) : by_point(asked, all, dataset);
 }
 
 std::vector<bool> PointFilter::failed_points(const results::Dataset& dataset) const {
@@ -265,8 +226,8 @@ void PointFilter::keep_results(const Compared& asked, const results::Dataset& da
       kept[point] = kept[point] && (entry->name == "status" || !is_failed[point]) && meets(point);
   };
   if (by_word) {
-    const std::vector<std::string> words = words_of(variable);
-    require_meaning(condition, meanings_of(variable));
+    const std::vector<std::string> words = by_point(asked, words_of(variable), dataset);
+    require_known_word(condition, variable);
     const bool is_equal = condition.comparison == Comparison::equal;
     keep([&](std::size_t point) { return (words[point] == condition.word) == is_equal; });
   } else if (layout == Layout::components &&
@@ -286,12 +247,68 @@ void PointFilter::keep_results(const Compared& asked, const results::Dataset& da
   }
 }
 
+/// Whether each point meets one condition.
+std::vector<bool> PointFilter::met(const Compared& asked, const results::Dataset& dataset) const {
+  std::vector<bool> kept(points_of(rows_), true);
+  asked.layout == Layout::axis ? keep_along_axis(asked, dataset, kept) : keep_results(asked, dataset, kept);
+  return kept;
+}
+
 std::vector<bool> PointFilter::chosen(const results::Dataset& dataset) const {
   require_complete(dataset);
   std::vector<bool> kept(points_of(rows_), true);
-  for (const Compared& asked : asked_)
-    asked.layout == Layout::axis ? keep_along_axis(asked, dataset, kept) : keep_results(asked, dataset, kept);
+  for (const Compared& asked : asked_) {
+    const std::vector<bool> here = met(asked, dataset);
+    for (std::size_t point = 0; point < kept.size(); ++point) kept[point] = kept[point] && here[point];
+  }
   return kept;
+}
+
+/// "impact_speed is 0.2 ... 0.4 m/s", "word is one of LU, LLUU": the values of points that haven't failed.
+std::string PointFilter::values_of(const Compared& asked, const results::Dataset& dataset) const {
+  const results::Variable& variable = variable_of(dataset, asked.entry->name);
+  const std::string& name = asked.condition.name;
+  const std::vector<bool> is_failed = failed_points(dataset);
+  const auto counts = [&](std::size_t point) {
+    return asked.layout == Layout::axis || asked.entry->name == "status" || !is_failed[point];
+  };
+  if (is_text(variable) || (!asked.condition.value && !meanings_of(variable).empty())) {
+    std::vector<std::string> words = by_point(asked, words_of(variable), dataset);
+    for (std::size_t point = 0; point < words.size(); ++point)
+      if (!counts(point)) words[point].clear();
+    const bool is_free = is_text(variable) && variable.name != "special_kind";  // else it is one of those known
+    return name + words_there(is_free ? asked.condition.word : "", words);
+  }
+  const bool is_of_branches = asked.layout == Layout::components && asked.entry->dimensions.back().name == "meeting";
+  const std::vector<double> numbers =
+      asked.layout == Layout::axis || is_of_branches ? numbers_in(variable.values) : numbers_of(asked, dataset);
+  std::vector<double> there;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (!std::isnan(numbers[i]) && (is_of_branches ? numbers[i] >= 0 : counts(i))) there.push_back(numbers[i]);
+  if (there.empty()) return name + " has no value at any point";
+  const auto [low, high] = std::ranges::minmax(there);
+  const std::string unit = unit_text(asked.entry->units);
+  return name + " is " + formatted("%.6g", low) + (low == high ? "" : " ... " + formatted("%.6g", high)) +
+         (unit.empty() ? "" : ' ' + unit);
+}
+
+std::string PointFilter::values_there(const results::Dataset& dataset) const {
+  std::string unmet, counts;
+  for (const Compared& asked : asked_) {
+    const std::vector<bool> here = met(asked, dataset);
+    const auto count = std::ranges::count(here, true);
+    if (count == 0) unmet += (unmet.empty() ? "" : ", ") + values_of(asked, dataset);
+    counts += (counts.empty() ? "" : ", ") + text_of(asked.condition) + " by " + std::to_string(count);
+  }
+  return unmet.empty() ? "alone each is met: " + counts : unmet;
+}
+
+void PointFilter::require_some(const std::vector<bool>& chosen, const results::Dataset& dataset) const {
+  if (asked_.empty() || std::ranges::find(chosen, true) != chosen.end()) return;
+  std::string text;
+  for (const Compared& asked : asked_) text += (text.empty() ? "--where " : " --where ") + text_of(asked.condition);
+  throw ChoiceError(text + ": no point of " + storage::quoted_name(path_) +
+                    (asked_.size() == 1 ? " meets it; " : " meets them all; ") + values_there(dataset));
 }
 
 std::size_t PointFilter::without_value(const results::Dataset& dataset) const {

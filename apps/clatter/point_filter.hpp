@@ -6,28 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "config/reading.hpp"
+#include "condition.hpp"
 #include "file_points.hpp"
 #include "results/dataset.hpp"
 #include "results/dataset_file.hpp"
 
 namespace clatter::app {
-
-enum class Comparison { equal, not_equal, less, at_most, greater, at_least };
-
-/// What --where asks of points: nu=1.0, impact_speed < 0.4 m/s, impact_word=LU.
-struct Condition {
-  std::string name;  ///< of an axis or a result, or a component of one, v_before[-1]
-  Comparison comparison = Comparison::equal;
-  std::optional<config::Reading> value{};  ///< nothing: it is no number
-  std::string word{};                      ///< the value as it was written
-};
-
-/// The text of a condition, for a message: "nu=1.0".
-[[nodiscard]] std::string text_of(const Condition& condition);
-
-/// Reads a condition. Throws ChoiceError.
-[[nodiscard]] Condition condition_of(const std::string& text);
 
 /// The number that a condition has, in the unit of a variable. Throws ChoiceError if it has none, or if its unit
 /// doesn't fit.
@@ -53,14 +37,21 @@ class PointFilter {
   /// an axis has no value that it shall equal, IoError if the file contradicts itself.
   [[nodiscard]] std::vector<bool> chosen(const results::Dataset& dataset) const;
 
+  /// Throws ChoiceError that names the conditions and the values that there are, if they choose no point.
+  void require_some(const std::vector<bool>& chosen, const results::Dataset& dataset) const;
+
+  /// Which values there are of what no point meets, for people: "frequency is 15 ... 60 Hz"; the dataset holds
+  /// `variables()`.
+  [[nodiscard]] std::string values_there(const results::Dataset& dataset) const;
+
   /// Of the points that haven't failed, those at which a condition compares a result that is NaN.
   [[nodiscard]] std::size_t without_value(const results::Dataset& dataset) const;
 
  private:
   using Entry = results::FileSummary::Entry;
 
-  /// How a variable lies over the points.
-  enum class Layout { axis, result, components };
+  /// How a variable lies over the points; of motions, each point has the value of the one that it ends in.
+  enum class Layout { axis, result, components, ended };
   struct Compared {
     Condition condition;
     const Entry* entry;
@@ -71,10 +62,16 @@ class PointFilter {
   [[nodiscard]] const Entry* find(const std::string& name) const;
   [[nodiscard]] std::optional<Layout> layout_of(const Entry& entry) const;
   [[noreturn]] void refuse(const std::string& name) const;
+  void refuse_contradictions() const;
   void require_complete(const results::Dataset& dataset) const;
+  [[nodiscard]] std::vector<bool> met(const Compared& asked, const results::Dataset& dataset) const;
   void keep_along_axis(const Compared& asked, const results::Dataset& dataset, std::vector<bool>& kept) const;
   void keep_results(const Compared& asked, const results::Dataset& dataset, std::vector<bool>& kept) const;
   [[nodiscard]] std::vector<double> numbers_of(const Compared& asked, const results::Dataset& dataset) const;
+  template <class Value>
+  [[nodiscard]] std::vector<Value> by_point(const Compared& asked, std::vector<Value> values,
+                                            const results::Dataset& dataset) const;
+  [[nodiscard]] std::string values_of(const Compared& asked, const results::Dataset& dataset) const;
   [[nodiscard]] std::vector<double> of_components(const Compared& asked, const results::Dataset& dataset,
                                                   const std::vector<double>& all) const;
   [[nodiscard]] std::vector<bool> failed_points(const results::Dataset& dataset) const;

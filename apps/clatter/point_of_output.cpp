@@ -95,8 +95,6 @@ PointOfOutput point_of_sweep(const std::string& path, const Conditions& where) {
   if (points.size() > 1)
     throw UsageError(storage::quoted_name(path) + " has " + std::to_string(points.size()) +
                      " such points; choose one, e.g. by " + choices_among(points, sweep));
-  if (points.empty())
-    throw UsageError(storage::quoted_name(path) + " has no point that meets all of --where; leave one of them out");
   const std::size_t point = points[0];
   PointOfOutput out{coordinates_text(sweep, point), sweep.problem, {}, 1};
   each_coordinate(sweep, point, [&](const sweep::Axis& axis, double value) {

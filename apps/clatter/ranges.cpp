@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -12,6 +13,7 @@
 #include "config/value_grammar.hpp"
 #include "csv_text.hpp"
 #include "quantiles.hpp"
+#include "result_names.hpp"
 #include "steady/status.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
@@ -25,22 +27,29 @@ std::size_t size_of(const results::Variable& variable) {
   return std::visit([](const auto& values) { return values.size(); }, variable.values);
 }
 
-/// The word for one value of a result: a text, the meaning of a flag, or a whole number; empty: NaN. Throws ChoiceError
-/// at a number that is no count.
-std::string word_at(const results::Variable& variable, std::size_t index) {
-  const auto* const numbers = std::get_if<std::vector<double>>(&variable.values);
-  if (numbers == nullptr) {
-    std::string text;
-    append_value(text, variable.values, index, meanings_of(variable));
-    return storage::printable(text);
-  }
-  const double number = (*numbers)[index];
+/// A number that is whole, or over this many periods, as text: "2", "3/2"; empty: it is neither, or NaN.
+std::string count_text(double number, double periods) {
   if (std::isnan(number)) return {};
-  if (number != std::floor(number))
-    throw ChoiceError("--ranges: " + config::in_quotes(variable.name) +
-                      " is neither a name nor a count; conditions have ranges, too: --where '" + variable.name + " < " +
-                      config::number_text(number) + "'");
-  return config::number_text(number);
+  if (number == std::floor(number)) return config::number_text(number);
+  const double times = number * periods, whole = std::round(times);
+  constexpr double rounding = 1e-9;
+  const bool is_whole = periods > 1 && std::abs(times - whole) <= rounding * std::abs(times);
+  return is_whole ? config::number_text(whole) + '/' + config::number_text(periods) : "";
+}
+
+/// The word for one value of a result: a text, the meaning of a flag, or a count; empty: NaN, or no count.
+std::string word_at(const results::Variable& variable, std::size_t index, double periods = 1) {
+  if (const auto* const numbers = std::get_if<std::vector<double>>(&variable.values))
+    return count_text((*numbers)[index], periods);
+  std::string text;
+  append_value(text, variable.values, index, meanings_of(variable));
+  return storage::printable(text);
+}
+
+/// The forcing periods of the motion of each point, as far as they are known.
+std::vector<double> periods_of(const results::Dataset& dataset, std::size_t points) {
+  const auto* const ratios = results::values_of<double>(dataset, "period_ratio");
+  return ratios != nullptr && ratios->size() == points ? *ratios : std::vector<double>(points, 1.0);
 }
 
 }  // namespace
@@ -49,6 +58,7 @@ Ranges::Ranges(const results::FileSummary& summary, const std::string& path, Ran
     : summary_(summary),
       path_(path),
       choice_(std::move(choice)),
+      named_(choice_.result.empty() ? "" : name_in_file(summary, choice_.result)),
       rows_(dimensions_of_points(summary, path)),
       filter_(summary, path, rows_, choice_.where) {
   if (holds_accuracy(summary_))
@@ -63,6 +73,9 @@ Ranges::Ranges(const results::FileSummary& summary, const std::string& path, Ran
   if (!choice_.result.empty()) {
     result_ = &require_result();
     need(result_->name);
+    const Entry* const ratio = find_variable(summary_, "period_ratio");
+    if (ratio != nullptr && std::ranges::equal(ratio->dimensions, rows_, are_same)) need(ratio->name);
+    if (is_of_motions(*result_)) need("attractor");
     if (result_->dimensions.size() > rows_.size() &&
         find_variable(summary_, result_->dimensions.back().name) != nullptr)
       need(result_->dimensions.back().name);
@@ -82,15 +95,18 @@ Ranges::Ranges(const results::FileSummary& summary, const std::string& path, Ran
 }
 
 const results::FileSummary::Entry& Ranges::require_result() const {
-  const ComponentName name(choice_.result);
+  const ComponentName name(named_);
+  const Entry* const numbers = find_variable(summary_, "attractor");
+  const bool has_motions = numbers != nullptr && std::ranges::equal(numbers->dimensions, rows_, are_same);
   const Entry* const found = find_variable(summary_, name.variable);
   const auto is_over_rows = [&](const Entry& entry) {
     const std::size_t parts = entry.dimensions.size() - std::min(rows_.size(), entry.dimensions.size());
+    if (has_motions && is_of_motions(entry)) return true;
     return entry.dimensions.size() >= rows_.size() && parts <= 1 && !is_own_coordinate(entry) &&
            std::equal(rows_.begin(), rows_.end(), entry.dimensions.begin(), are_same);
   };
   if (found != nullptr && is_over_rows(*found)) {
-    const bool has_parts = found->dimensions.size() > rows_.size();
+    const bool has_parts = found->dimensions.size() > rows_.size() && !is_of_motions(*found);
     if (has_parts == name.component.has_value()) return *found;
     throw ChoiceError("--ranges: " + config::in_quotes(choice_.result) +
                       (has_parts ? " has several values a point; name one, e.g. " + found->name + "[1]"
@@ -139,19 +155,63 @@ std::vector<Whereabouts> Ranges::coordinates(std::size_t dimension, std::size_t 
   return found;
 }
 
+/// The values of the result at each point.
+std::size_t Ranges::width_of_result() const {
+  return result_->dimensions.size() > rows_.size() ? result_->dimensions.back().length : 1;
+}
+
+/// Which of them is asked for.
+std::size_t Ranges::part_of_result(const results::Dataset& dataset) const {
+  const auto named = ComponentName(named_).component;
+  if (!named) return 0;
+  const results::NamedLength& along = result_->dimensions.back();
+  for (std::size_t part = 0; part < width_of_result(); ++part)
+    if (component_name(dataset, along.name, part) == *named) return part;
+  throw ChoiceError("--ranges: " + config::in_quotes(choice_.result) + " is no component; there are " +
+                    component_names(dataset, result_->name, along));
+}
+
 std::vector<std::string> Ranges::words_of_result(const results::Dataset& dataset) const {
   const results::Variable& variable = variable_of(dataset, result_->name);
-  const std::size_t width = result_->dimensions.size() > rows_.size() ? result_->dimensions.back().length : 1;
-  std::size_t part = 0;
-  if (const auto named = ComponentName(choice_.result).component) {
-    while (part < width && component_name(dataset, result_->dimensions.back().name, part) != *named) ++part;
-    if (part == width)
-      throw ChoiceError("--ranges: " + config::in_quotes(choice_.result) + " is no component; there are " +
-                        component_names(dataset, result_->name, result_->dimensions.back()));
-  }
   std::vector<std::string> words(points_of(rows_));
-  for (std::size_t point = 0; point < words.size(); ++point) words[point] = word_at(variable, point * width + part);
+  if (is_of_motions(*result_)) {  // each point has that of the motion that it ends in
+    const std::vector<double> numbers = numbers_in(variable_of(dataset, "attractor").values);
+    for (std::size_t point = 0; point < words.size(); ++point)
+      if (numbers[point] >= 0 && numbers[point] < static_cast<double>(size_of(variable)))
+        words[point] = word_at(variable, static_cast<std::size_t>(numbers[point]));
+    return words;
+  }
+  const std::size_t width = width_of_result(), part = part_of_result(dataset);
+  const std::vector<double> periods = periods_of(dataset, words.size());
+  for (std::size_t point = 0; point < words.size(); ++point)
+    words[point] = word_at(variable, point * width + part, periods[point]);
   return words;
+}
+
+/// Throws ChoiceError at a result that is neither a name nor a count. Of motion without a period the mean over a window
+/// is no count, and neither name the point.
+void Ranges::require_counts(const results::Dataset& dataset) const {
+  const results::Variable& variable = variable_of(dataset, result_->name);
+  const auto* const numbers = std::get_if<std::vector<double>>(&variable.values);
+  if (numbers == nullptr || is_of_motions(*result_)) return;
+  const std::size_t width = width_of_result(), part = part_of_result(dataset);
+  const std::vector<std::string> words = words_of_result(dataset);
+  const auto* const status = results::values_of<std::uint8_t>(dataset, "status");
+  bool has_count = false;
+  std::optional<double> other;
+  for (std::size_t point = 0; point < words.size(); ++point) {
+    const double number = (*numbers)[point * width + part];
+    has_count = has_count || !words[point].empty();
+    if (!words[point].empty() || std::isnan(number)) continue;
+    const bool has_period = status == nullptr || !lacks_period(static_cast<steady::Status>((*status)[point]));
+    if (has_period || !other) other = number;
+    if (has_period) has_count = false;
+    if (has_period) break;
+  }
+  if (other && !has_count)
+    throw ChoiceError("--ranges: " + config::in_quotes(choice_.result) +
+                      " is neither a name nor a count; conditions have ranges, too: --where '" + choice_.result +
+                      " < " + config::number_text(*other) + "'");
 }
 
 std::vector<std::string> Ranges::words(const results::Dataset& dataset) const {
@@ -241,7 +301,11 @@ Range Ranges::extent(const std::vector<std::size_t>& points, const results::Data
 std::vector<RangeLine> Ranges::of(const results::Dataset& dataset) const {
   const std::vector<std::string> of_points = words(dataset);
   std::vector<RangeLine> lines;
+  if (rows_.empty() && result_ != nullptr)
+    throw ChoiceError("--ranges: " + storage::quoted_name(path_) +
+                      " has one point and no axis; sweep a key in [sweep] for ranges along it");
   if (rows_.empty()) return lines;
+  if (result_ != nullptr) filter_.require_some(filter_.chosen(dataset), dataset), require_counts(dataset);
   std::size_t stride = 1;
   for (std::size_t d = along_ + 1; d < rows_.size(); ++d) stride *= rows_[d].length;
   const std::vector<std::size_t> order = order_along(dataset);
@@ -278,6 +342,7 @@ Met Ranges::met(const results::Dataset& dataset) const {
     ++(is_left_out ? met.failed : met.of);
     if (chosen[point] && !is_left_out) ++met.points;
   }
+  if (met.points == 0 && met.of > 0) met.there = filter_.values_there(dataset);
   return met;
 }
 

@@ -21,10 +21,19 @@ struct Range {
   std::optional<std::size_t> before{}, after{};  ///< the points next to the ends; nothing: the axis ends there
 };
 
+/// What lies between two neighbouring points of the file that end one range and begin the next, where their refined
+/// ends don't meet.
+struct Gap {
+  std::size_t after;  ///< which range
+  std::vector<Whereabouts> from, to;
+  std::string why;
+};
+
 /// The ranges along the axis at one value of each of the others.
 struct RangeLine {
   std::vector<Whereabouts> at;
   std::vector<Range> ranges;
+  std::vector<Gap> gaps{};  ///< of refined ranges
 };
 
 /// What --ranges and --where ask for.
@@ -38,6 +47,7 @@ struct RangeChoice {
 struct Met {
   std::size_t points, of;  ///< of those that haven't failed
   std::size_t failed, without_value;
+  std::string there{};  ///< if none meets them, the values that there are: "impact_speed is 0.2 ... 0.4 m/s"
 };
 
 /// From where to where along one axis a result that is a name or a count keeps its word, or points meet conditions.
@@ -71,7 +81,10 @@ class Ranges {
   [[nodiscard]] std::vector<Whereabouts> coordinates(std::size_t dimension, std::size_t index,
                                                      const results::Dataset& dataset) const;
   [[nodiscard]] std::vector<std::size_t> order_along(const results::Dataset& dataset) const;
+  [[nodiscard]] std::size_t width_of_result() const;
+  [[nodiscard]] std::size_t part_of_result(const results::Dataset& dataset) const;
   [[nodiscard]] std::vector<std::string> words_of_result(const results::Dataset& dataset) const;
+  void require_counts(const results::Dataset& dataset) const;
   [[nodiscard]] Range extent(const std::vector<std::size_t>& points, const results::Dataset& dataset) const;
   [[nodiscard]] std::vector<Whereabouts> others(std::size_t point, const results::Dataset& dataset) const;
   [[nodiscard]] bool turns(const std::vector<std::size_t>& points, std::size_t i,
@@ -83,6 +96,7 @@ class Ranges {
   const results::FileSummary& summary_;
   std::string path_;
   RangeChoice choice_;
+  std::string named_;  ///< the result by its name in the file
   std::vector<results::NamedLength> rows_;
   PointFilter filter_;
   const Entry* result_ = nullptr;

@@ -21,17 +21,24 @@ std::string place_text(const std::vector<Whereabouts>& places, const AskedUnits&
   return text;
 }
 
-/// "frequency = 15 Hz ... 21.25 Hz, 26 points"; the name of the first axis stands above all ranges.
-std::string extent_text(const Range& range, const AskedUnits& asked) {
+/// "frequency = 15 Hz ... 21.25 Hz"; of axes that are linked all.
+std::string extent_text(const std::vector<Whereabouts>& begin, const std::vector<Whereabouts>& end,
+                        const AskedUnits& asked) {
   std::string text;
-  for (std::size_t i = 0; i < range.from.size(); ++i) {
-    const Whereabouts &from = range.from[i], &to = range.to[i];
+  for (std::size_t i = 0; i < begin.size(); ++i) {
+    const Whereabouts &from = begin[i], &to = end[i];
     const std::vector<double> both{from.value, to.value};
     const Amounts amounts(from.units, both, asked);
     text += (i == 0 ? "" : ", ") + from.name + " = " + amounts.text("%.12g", from.value);
     if (from.value != to.value) text += " ... " + amounts.text("%.12g", to.value);
   }
-  return text + (text.empty() ? "" : ", ") + counted(static_cast<double>(range.points), "point");
+  return text;
+}
+
+/// "  LU  frequency = 15 Hz ... 21.25 Hz, 26 points"
+std::string range_text(const Range& range, const std::string& word, const AskedUnits& asked) {
+  const std::string extent = extent_text(range.from, range.to, asked);
+  return word + extent + (extent.empty() ? "" : ", ") + counted(static_cast<double>(range.points), "point") + '\n';
 }
 
 std::string met_text(const Ranges& ranges, const Met& met) {
@@ -47,6 +54,7 @@ std::string met_text(const Ranges& ranges, const Met& met) {
   }
   if (met.without_value > 0) text += ", " + std::to_string(met.without_value) + " without a value";
   if (met.failed > 0) text += ", and " + std::to_string(met.failed) + " failed";
+  if (!met.there.empty()) text += "; " + storage::printable(met.there);
   return text + '\n';
 }
 
@@ -63,10 +71,14 @@ std::string ranges_text(const Ranges& ranges, const std::vector<RangeLine>& line
   for (const RangeLine& line : lines) {
     if (line.ranges.empty()) continue;
     if (!line.at.empty()) text += "at " + place_text(line.at, asked) + '\n';
-    for (const Range& range : line.ranges) {
-      std::string word = range.word;
-      word.resize(width, ' ');
-      text += "  " + (ranges.result() != nullptr ? word + "  " : "") + extent_text(range, asked) + '\n';
+    for (std::size_t i = 0; i < line.ranges.size(); ++i) {
+      const auto begin = [&](std::string word) {
+        word.resize(width, ' ');
+        return "  " + (ranges.result() != nullptr ? word + "  " : "");
+      };
+      text += range_text(line.ranges[i], begin(line.ranges[i].word), asked);
+      for (const Gap& gap : line.gaps)
+        if (gap.after == i) text += begin("") + extent_text(gap.from, gap.to, asked) + ", " + gap.why + '\n';
     }
   }
   return text;

@@ -13,6 +13,7 @@
 #include "outputs/output_summary.hpp"
 #include "per_period.hpp"
 #include "storage/input_file.hpp"
+#include "storage/utf8.hpp"
 #include "sweep/run.hpp"
 
 namespace clatter::app {
@@ -65,6 +66,21 @@ class Between {
     return found != known_.end() ? found->second : known_[key] = computed(at(from, to, way));
   }
 
+  /// The words that were found between two points, without those of the points.
+  [[nodiscard]] std::string others(std::size_t from, std::size_t to, const std::string& one,
+                                   const std::string& other) const {
+    std::vector<std::string> words;
+    for (const auto& [key, word] : known_) {
+      const bool is_between = std::get<0>(key) == from && std::get<1>(key) == to && word != one && word != other;
+      if (is_between && std::ranges::find(words, word) == words.end()) words.push_back(word);
+    }
+    constexpr std::size_t most = 3;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, words.size()); ++i)
+      text += (i == 0 ? "" : ", ") + storage::excerpt(words[i], 40);
+    return words.size() > most ? text + ", ..." : text;
+  }
+
  private:
   [[nodiscard]] bool is_axis(const std::string& name) const {
     for (const sweep::Dimension& dimension : sweep_.dimensions)
@@ -102,6 +118,11 @@ void move_end(std::vector<Whereabouts>& end, const std::string& word, std::size_
       if (parameter.key() == axis.name) axis.value = value;
 }
 
+double value_on(const std::vector<Whereabouts>& place, const std::string& axis) {
+  const auto found = std::ranges::find(place, axis, &Whereabouts::name);
+  return found == place.end() ? 0.0 : found->value;
+}
+
 void require_points_of_their_own(const Ranges& ranges, const results::FileSummary& summary, const std::string& path) {
   if (holds_branches(summary))
     throw ChoiceError(
@@ -118,7 +139,7 @@ void require_points_of_their_own(const Ranges& ranges, const results::FileSummar
                         "' is per forcing period here, and not of a point between two; leave it out, or name a power");
   const auto* const result = ranges.result();
   if (result != nullptr && (result->name == "attractor" || result->name == "motion_count"))
-    throw ChoiceError("--refine: numbers of motions depend on all points; leave it out, or name e.g. impact_word");
+    throw ChoiceError("--refine: numbers of motions depend on all points; leave it out, or name e.g. word");
   if (points_of(dimensions_of_points(summary, path)) != size(outputs::config_of_output(summary, path).sweep))
     storage::refuse_reading(path, "is damaged: its points aren't those of its configuration",
                             "run its configuration again");
@@ -132,7 +153,9 @@ void refine(std::vector<RangeLine>& lines, const Ranges& ranges, const results::
   require_points_of_their_own(ranges, summary, path);
   Between between(ranges, summary, path);
   const results::FileSummary::Entry* const axis = find_variable(summary, ranges.along());
-  if (axis == nullptr) return;
+  if (axis == nullptr)
+    throw ChoiceError("--refine: " + storage::quoted_name(path) +
+                      " has no axis along which ends could move; leave it out");
   const std::vector<double> values = numbers_in(results::read_variables(path, {axis->name}).variables.at(0).values);
   const double least = same_on_axis(values, 0.0);
   const auto own = [&](std::size_t point) {
@@ -150,6 +173,20 @@ void refine(std::vector<RangeLine>& lines, const Ranges& ranges, const results::
         move_end(end, range.word, inside, *outside, std::max(least / distance, 1e-15), between);
       };
       move(range.from, range.first, range.before), move(range.to, range.last, range.after);
+    }
+  if (ranges.result() == nullptr) return;  // points between its ranges are known not to meet the conditions
+  for (RangeLine& line : lines)
+    for (std::size_t i = 0; i + 1 < line.ranges.size(); ++i) {
+      const Range &range = line.ranges[i], &next = line.ranges[i + 1];
+      if (range.after != next.first) continue;
+      const double apart = std::abs(value_on(next.from, axis->name) - value_on(range.to, axis->name));
+      constexpr double in_both_ends = 3;  // each is that of a word to within `least`
+      if (apart <= in_both_ends * least) continue;
+      const std::string words =
+          between.others(std::min(range.last, next.first), std::max(range.last, next.first), range.word, next.word);
+      line.gaps.push_back({i, range.to, next.from,
+                           words.empty() ? "not refined: run alone, these points differ from those of the file"
+                                         : "between two points of the file other words hold: " + words});
     }
 }
 

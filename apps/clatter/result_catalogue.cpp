@@ -13,6 +13,7 @@
 #include "config/config_text.hpp"
 #include "csv_text.hpp"
 #include "file_points.hpp"
+#include "result_names.hpp"
 #include "scene/parameter.hpp"
 #include "sweep/result_dataset.hpp"
 
@@ -145,8 +146,12 @@ std::span<const CataloguedResult> result_catalogue() {
 
 std::vector<const CataloguedResult*> results_named(std::string_view name) {
   std::vector<const CataloguedResult*> named;
+  const auto is_meant = [&](const CataloguedResult& result) {
+    return result.name == name || (result.command != "accuracy" && typed_name(result.name, result.over) == name);
+  };
   for (const CataloguedResult& result : result_catalogue())
-    if (result.name == name) named.push_back(&result);
+    if (is_meant(result)) named.push_back(&result);
+  std::ranges::stable_partition(named, [&](const CataloguedResult* result) { return result->name == name; });
   if (!named.empty()) return named;
   static std::map<std::string, std::optional<CataloguedResult>, std::less<>> derivatives;
   const auto known = derivatives.try_emplace(std::string(name), derivative_named(name)).first;

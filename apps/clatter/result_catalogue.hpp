@@ -29,7 +29,7 @@ struct CataloguedResult {
 /// read off the datasets that the commands make of a sweep with all observables, before anything is computed.
 [[nodiscard]] std::span<const CataloguedResult> result_catalogue();
 
-/// The variables of that name: of a run, of branches, of accuracy.
+/// The variables of that name, and behind them those that users type by it: of a run, of branches, of accuracy.
 [[nodiscard]] std::vector<const CataloguedResult*> results_named(std::string_view name);
 
 /// The command that wrote a file: "run", "branch" or "accuracy".

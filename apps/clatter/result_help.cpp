@@ -4,6 +4,7 @@
 
 #include "config/wrapped.hpp"
 #include "format.hpp"
+#include "result_names.hpp"
 #include "steady/status.hpp"
 
 namespace clatter::app {
@@ -19,6 +20,12 @@ std::string unit_of(const CataloguedResult& result) {
   if (result.units_in_si == "1") return "none";
   if (result.units == result.units_in_si) return unit_text(result.units);
   return unit_text(result.units_in_si) + " of a [machine], else none";
+}
+
+/// The name for options, if it is shorter than that in the file.
+std::string typed_as(const CataloguedResult& result) {
+  const std::string typed = typed_name(result.name, result.over);
+  return typed == result.name ? "" : typed + ", in options of clatter";
 }
 
 std::string frame_of(const CataloguedResult& result) {
@@ -65,7 +72,7 @@ std::string result_reference(const CataloguedResult& result) {
   return result.name + " in files of `clatter " + std::string(result.command) + "`\n  " +
          config::wrapped(result.meaning + (differs ? "; of a [machine]: " + result.meaning_in_si : ""), 2) +
          row("type", result.type) + row("over", result.over) + row("unit", unit_of(result)) +
-         row("frame", frame_of(result)) + row("missing", missing(result)) +
+         row("typed as", typed_as(result)) + row("frame", frame_of(result)) + row("missing", missing(result)) +
          row("asked for by", result.observable.empty() ? "" : "observe." + result.observable, 16) + values_of(result);
 }
 

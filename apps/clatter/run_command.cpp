@@ -60,7 +60,6 @@ int run_config(const Arguments& arguments) {
   std::signal(SIGPIPE, SIG_IGN);  // a run goes on even if nobody reads its messages any more
   RunRequest request = request_of(arguments);
   config::Config config = config_of(arguments);
-  check_not_config(arguments.operands[0], request.output);
   return RunSession(std::move(config), std::move(request)).run();
 }
 

@@ -26,13 +26,13 @@ std::vector<Condition> conditions_of(const Arguments& arguments) try {
   throw UsageError(error.what());
 }
 
-std::optional<std::string> text_output_of(const Arguments& arguments) {
+std::optional<std::string> text_output_of(const Arguments& arguments, FileKind kind) {
   const std::string output = arguments.value("output").value_or("-");
   if (output == "-") return std::nullopt;
+  check_not_input(arguments.operands[0], output, "the input");
+  check_name(output, kind);
   storage::check_writable(output);
   std::error_code error;
-  if (std::filesystem::equivalent(arguments.operands[0], output, error))
-    throw UsageError("the output " + storage::quoted_name(output) + " is the input; name another file with -o");
   if (std::filesystem::exists(output, error) && !arguments.has("force"))
     throw storage::IoError("cannot write " + storage::quoted_name(output) + ": there is a file; " +
                            storage::instead_of_replacing(output));

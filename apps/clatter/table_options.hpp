@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "common_options.hpp"
 #include "point_filter.hpp"
 
 namespace clatter::app {
@@ -12,13 +13,13 @@ namespace clatter::app {
 /// Options of the commands that print a part of an output as text.
 inline const Option where_option{
     "where", 0, "CONDITION",
-    "points that meet this, e.g. nu=1.0, 'gap < 1.5 mm', 'impact_speed < 0.4 m/s' or impact_word=LU; repeatable", true};
+    "points that meet this, e.g. nu=1.0, 'gap < 1.5 mm', 'impact_speed < 0.4 m/s' or word=LU; repeatable", true};
 
 /// The conditions of all --where. Throws UsageError.
 [[nodiscard]] std::vector<Condition> conditions_of(const Arguments& arguments);
 
-/// The file that -o names; nothing: standard output. Throws UsageError if it is the input, and IoError if it exists,
-/// but for --force, or cannot be written.
-[[nodiscard]] std::optional<std::string> text_output_of(const Arguments& arguments);
+/// The file that -o names; nothing: standard output. Throws UsageError if it is the input, or named as another kind,
+/// and IoError if it exists, but for --force, or cannot be written.
+[[nodiscard]] std::optional<std::string> text_output_of(const Arguments& arguments, FileKind kind);
 
 }  // namespace clatter::app

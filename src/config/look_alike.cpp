@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "storage/utf8.hpp"
 
@@ -15,14 +16,17 @@ struct LookAlike {
   std::string_view kind, type;
 };
 
-constexpr std::string_view minus = "a typeset minus", quote = "a typeset quote", blank = "a typeset blank",
-                           straight = "a straight quote, \"", plain = "a plain blank";
+constexpr std::string_view minus = "a typeset minus", sign = "a typeset sign", quote = "a typeset quote",
+                           blank = "a typeset blank", straight = "a straight quote, \"", plain = "a plain blank";
 
 constexpr std::array look_alikes{
     LookAlike{0x2212, 0x2212, minus, "a hyphen, -"},
     LookAlike{0x2010, 0x2015, "a typeset dash", "a hyphen, -"},
     LookAlike{0xFE63, 0xFE63, minus, "a hyphen, -"},
     LookAlike{0xFF0D, 0xFF0D, minus, "a hyphen, -"},
+    LookAlike{0x2260, 0x2260, sign, "!="},
+    LookAlike{0x2264, 0x2264, sign, "<="},
+    LookAlike{0x2265, 0x2265, sign, ">="},
     LookAlike{0x2018, 0x201F, quote, straight},
     LookAlike{0xAB, 0xAB, quote, straight},
     LookAlike{0xBB, 0xBB, quote, straight},
@@ -56,6 +60,16 @@ std::optional<std::string> look_alike_hint(std::string_view character) {
   if (found == look_alikes.end()) return std::nullopt;
   const std::string what_to_do = found->type == "none" ? "; delete it" : "; type " + std::string(found->type);
   return name_of_character(character) + " is " + std::string(found->kind) + what_to_do;
+}
+
+std::optional<FoundLookAlike> find_look_alike(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = std::max<std::size_t>(storage::utf8_length(text.substr(at)), 1);
+    if (auto hint = length > 1 ? look_alike_hint(text.substr(at, length)) : std::nullopt)
+      return FoundLookAlike{at, std::move(*hint)};
+    at += length;
+  }
+  return std::nullopt;
 }
 
 }  // namespace clatter::config

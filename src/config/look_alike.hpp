@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,5 +13,12 @@ namespace clatter::config {
 /// The plain character that a typeset one stands for, and what to type, for a message: "'−' (U+2212) is a typeset
 /// minus; type -". Word processors and web pages put them in place of those of a keyboard. Nothing: it is none.
 [[nodiscard]] std::optional<std::string> look_alike_hint(std::string_view character);
+
+/// The first such character of a text: where it begins, and its hint.
+struct FoundLookAlike {
+  std::size_t at;
+  std::string hint;
+};
+[[nodiscard]] std::optional<FoundLookAlike> find_look_alike(std::string_view text);
 
 }  // namespace clatter::config

@@ -56,12 +56,7 @@ class Parser {
 
   /// Refuses what looks like a minus, a quote or a blank, none of which a number or a unit has.
   void check_look_alikes() const {
-    for (std::size_t at = 0; at < source_.text.size();) {
-      const std::size_t length = std::max<std::size_t>(storage::utf8_length(source_.text.substr(at)), 1);
-      const std::string_view character = source_.text.substr(at, length);
-      if (const auto hint = length > 1 ? look_alike_hint(character) : std::nullopt) fail_at(at, *hint);
-      at += length;
-    }
+    if (const auto found = find_look_alike(source_.text)) fail_at(found->at, found->hint);
   }
 
   void skip_blanks() { at_ = std::min(source_.text.find_first_not_of(blanks, at_), source_.text.size()); }

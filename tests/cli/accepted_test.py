@@ -25,10 +25,38 @@ class Accepted(CommandLine):
         for command in ("run", "branch", "accuracy"):
             words = "-o 'result.csv': results are HDF5; write -o result.h5, and then e.g. clatter export result.h5"
             self.assert_refused(2, words, command, "a.toml", "-o", "result.csv")
-        for name in ("a.txt", "b.XLSX", "c.svg"):
+        for name in ("a.txt", "b.XLSX", "c.svg", "y.toml", "y.ini"):
             self.assert_refused(2, "results are HDF5", "run", "a.toml", "-o", name)
         for name in ("plain", "results.nc", "v1.2"):
             self.assertEqual(self.clatter("run", "a.toml", "-q", "-o", name).returncode, 0)
+
+    def test_the_name_of_another_kind_of_file_is_refused_for_tables_certificates_and_configurations(self):
+        self.write("a.toml", SMALL)
+        self.clatter("run", "a.toml", "-q")
+        table, lines = (
+            "a table is CSV, which spreadsheets open, too; write -o ",
+            "certificates are JSON, one a line; write -o ",
+        )
+        for words, *command in (
+            ("-o 'x.h5': " + table + "x.csv\n", "export", "a.h5", "-o", "x.h5"),
+            ("-o 'x.xlsx': " + table + "x.csv\n", "export", "a.h5", "-o", "x.xlsx"),
+            (table + "none/x.csv\n", "export", "a.h5", "-o", "none/x.JSON"),
+            ("-o 'c.h5': " + lines + "c.jsonl\n", "certify", "a.h5", "-o", "c.h5"),
+            (lines + "c.jsonl\n", "certify", "a.h5", "-o", "c.csv"),
+            ("results are HDF5; write -o y.h5\n", "run", "a.toml", "-o", "y.toml"),
+            ("results are HDF5; write -o y.h5\n", "merge", "a.h5", "-o", "y.toml"),
+            ("-o 'x.h5': a configuration is TOML; write -o x.toml\n", "init", "drill", "-o", "x.h5"),
+        ):
+            self.assert_refused(2, words, *command)
+        for *command, name in (
+            ("export", "a.h5", "b.csv"),
+            ("export", "a.h5", "b.dat"),
+            ("export", "a.h5", "v1.2"),
+            ("certify", "a.h5", "b.jsonl"),
+            ("certify", "a.h5", "b.json"),
+            ("init", "drill", "b.toml"),
+        ):
+            self.assertEqual(self.clatter(*command, "-o", name).returncode, 0, name)
 
     def test_the_name_of_a_picture_is_no_folder_and_a_report_is_html(self):
         self.write("a.toml", SMALL)

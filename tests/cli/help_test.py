@@ -43,6 +43,23 @@ class Help(CommandLine):
         listed = re.findall(r"^  (\w+) .*  ", self.page("help").split("Exit codes")[0], re.MULTILINE)
         self.assertEqual(sorted(listed), sorted(COMMANDS))
 
+    def test_notes_tell_of_what_time_numbers_are_and_what_tau_is(self):
+        """info compares points, export prints files; both say which."""
+        for words, *parts in (
+            (("help", "info"), "Work, losses and impulse are those of one forcing period here, as in pictures"),
+            (
+                ("help", "export"),
+                "Numbers are those of the file: work, losses and impulse in the observed time",
+                "tau of samples and of impacts is the time since the observed time began, in s of a [machine], else in "
+                "units of one over the natural frequency, so that a forcing period is 2 pi/nu",
+            ),
+        ):
+            page = self.page(*words)
+            notes = " ".join(page[page.index("\nNotes\n") : page.index("\nExamples\n")].split())
+            for part in parts:
+                self.assertIn(part, notes)
+        self.assertNotIn("trajectories: time", self.page("help", "export"))
+
     def test_a_key_is_explained_with_an_example(self):
         keys = self.keys()
         self.assertGreater(len(keys), 35)

@@ -79,6 +79,56 @@ class Ranges(CommandLine):
                 with h5py.File(self.directory / "one.h5") as one:
                     self.assertEqual(one["impact_word"].asstr()[()], word, (choice, nu))
 
+    def rig(self, low, high, points):
+        frequencies = f"sweep.frequency=linspace({low} Hz, {high} Hz, {points})"
+        config = str(SOURCE / "configs" / "rig.toml")
+        self.assertEqual(self.clatter("run", config, "-q", "-o", "a.h5", "--set", frequencies).returncode, 0)
+        return h5py.File(self.directory / "a.h5")
+
+    def word_at(self, frequency):
+        words = ("--set", f"machine.frequency={frequency!r}", "--set", f"sweep.frequency=[{frequency!r}]")
+        self.clatter("run", str(SOURCE / "configs" / "rig.toml"), "-q", "-o", "one.h5", "--force", *words)
+        with h5py.File(self.directory / "one.h5") as one:
+            return one["impact_word"].asstr()[0]
+
+    def test_refined_ranges_meet_or_it_is_told_what_lies_between(self):
+        """Between neighbours in the file further words may hold: the ends are where the own ones cease."""
+        with self.rig(7.05, 7.35, 7):
+            pass
+        line = self.info("--ranges", "word", "--refine", "--json")["lines"][0]
+        gaps = {gap["after"]: gap for gap in line["gaps"]}
+        self.assertTrue(0 < len(gaps) < len(line["ranges"]) - 1)
+        for number, (one, other) in enumerate(zip(line["ranges"], line["ranges"][1:])):
+            end, begin = one["to"]["frequency"], other["from"]["frequency"]
+            self.assertEqual(number in gaps, begin - end > 3e-9 * 0.3)
+            if number in gaps:
+                self.assertEqual((gaps[number]["from"], gaps[number]["to"]), (one["to"], other["from"]))
+                self.assertIn("between two points of the file other words hold: L", gaps[number]["why"])
+                for within in (end + 1e-9, begin - 1e-9):
+                    self.assertNotIn(self.word_at(within), (one["word"], other["word"]))
+        text = self.info("--ranges", "word", "--refine")
+        self.assertEqual(text.count("\n   "), len(gaps))
+        self.assertNotIn("gaps", self.info("--ranges", "word", "--json")["lines"][0])
+
+    def test_a_count_has_ranges_beside_motion_without_a_period(self):
+        """Of which a window has a mean; of longer periods it may be a fraction."""
+        with self.rig(23.5, 24.5, 11) as file:
+            counts, periods = file["impacts_per_period"][()][:, 1], file["period_ratio"][()]
+        told = self.info("--ranges", "impacts_per_period[1]", "--json")["lines"][0]["ranges"]
+        self.assertEqual([part["word"] for part in told], ["(aperiodic)", "3/2", "(aperiodic)", "1"])
+        self.assertEqual(set(counts[periods == 2]), {1.5})
+        self.assertEqual(sum(part["points"] for part in told if part["word"] == "3/2"), np.count_nonzero(periods == 2))
+        for name in ("impact_power", "impact_speed[1]", "period"):
+            self.assertIn("is neither a name nor a count", self.clatter("info", "a.h5", "--ranges", name).stderr)
+
+    def test_one_point_has_no_ranges(self):
+        self.made(SWEEP.replace('[sweep]\nnu = "linspace(1.0, 1.3, 13)"', "nu = 1.1")).close()
+        words = "--ranges: 'a.h5' has one point and no axis; sweep a key in [sweep] for ranges along it"
+        self.assert_refused(2, words, "info", "a.h5", "--ranges", "word")
+        words = "--refine: 'a.h5' has no axis along which ends could move; leave it out"
+        self.assert_refused(2, words, "info", "a.h5", "--where", "word=LU", "--refine")
+        self.assertIn(": 1 of 1 point, 100 %", self.info("--where", "word=LU"))
+
     def test_each_value_of_the_other_axis_has_its_ranges(self):
         with self.made(MAP) as file:
             words, xs = file["impact_word"].asstr()[()], file["xs"][()]
