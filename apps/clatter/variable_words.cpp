@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include "branches/branch.hpp"
@@ -35,6 +36,8 @@ std::vector<std::string> known_words(const results::Variable& variable) {
   std::vector<std::string> names;
   for (int kind = 0; kind <= static_cast<int>(branches::SpecialKind::motion_ceases); ++kind)
     names.emplace_back(name_of(static_cast<branches::SpecialKind>(kind)));
+  for (std::string& word : words_of(variable))  // a file of another version may have others
+    if (std::ranges::find(names, word) == names.end()) names.push_back(std::move(word));
   return names;
 }
 

@@ -22,7 +22,11 @@ Reading parse_reading(const SourceText& source) {
   const auto [value, rest] = parse_leading_number(source);
   if (rest.empty()) return {value, Quantity::number, {}};
   const std::optional<Unit> unit = parse_unit(rest);
-  if (!unit) fail(source.location, "unknown unit " + in_quotes(rest) + "; `clatter help units` explains units");
+  if (!unit) {
+    const std::string comma = comma_hint_within(source.text);
+    fail(source.location,
+         "unknown unit " + in_quotes(rest) + (comma.empty() ? "; `clatter help units` explains units" : comma));
+  }
   const auto quantity = quantity_that([&](Quantity known) { return fits(*unit, known); });
   if (!quantity) fail(source.location, "the unit " + in_quotes(rest) + " is that of nothing that clatter computes");
   return {in_si(value, *unit, *quantity), *quantity, std::string(rest)};

@@ -5,6 +5,7 @@ import subprocess
 import unittest
 
 from command_line import SOURCE, CommandLine
+from script_runs import run_script
 
 RIG = """[machine]
 mass = 1.0
@@ -124,8 +125,18 @@ class Messages(CommandLine):
         values = json.loads(f"[{said.rsplit('are ')[-1].replace(' and ', ',')}]")
         self.assertEqual(len(set(values)), 2, said)
 
+    def test_values_beside_files_are_told_like_those_in_them(self):
+        self.assert_refused(2, "unknown unit ',4 mm'; a decimal comma? write 0.4", "help", "--json", "0,4 mm")
+        self.assert_refused(2, "'\u2212' (U+2212) is a typeset minus; type a hyphen, -", "help", "--json", "\u22123")
+
 
 class Python(CommandLine):
+    def test_a_typeset_minus_is_told_by_the_program(self):
+        self.write("a.toml", RIG + "[sweep]\nload = ['-3 N', '3 N']\n")
+        self.assertEqual(self.clatter("run", "a.toml", "-q").returncode, 0)
+        said = run_script("plot.py", self.directory / "a.h5", "--at", "load=\u22123 N").stderr
+        self.assertIn("'\u2212' (U+2212) is a typeset minus; type a hyphen, -", said)
+
     def test_a_dataset_in_place_of_its_file_is_named(self):
         code = (
             f"import sys; sys.path.insert(0, {str(SOURCE / 'scripts')!r}); import clatter, xarray\n"

@@ -141,6 +141,12 @@ class Captions(PlotFolder):
         for other in "op":
             self.assertNotIn("(0)", self.told(self.figure("b", other))[1])
 
+    def test_where_a_branch_begins_is_no_property_of_it(self):
+        self.branch("b", x0=2.1, v0=0.4)
+        self.branch("o", x0=2.1, v0=0.4, R=0.65)
+        for names in (["b"], ["b", "o"]):
+            self.assertNotIn("(0)", self.told(self.figure(*names))[0])
+
     def test_a_scene_and_a_machine_share_no_picture(self):
         self.branch("b")
         machine = "[machine]\nmass = 1\nstiffness = 1\ndamping = 0.2\nforce = 1\ngap = 3\nfrequency = 0.17\n"

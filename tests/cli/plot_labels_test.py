@@ -9,9 +9,11 @@ import unittest
 
 import numpy as np
 
+from plot_pictures import NO_CHOICE
 from scene_pictures import ScenePictures
 from script_runs import run_script
 
+from clatter.plots import pictures
 from clatter.plots.names import equation, label
 
 
@@ -155,6 +157,21 @@ class Labels(ScenePictures):
             self.assertEqual(end, tau[-1])
             self.assertAlmostEqual(begin, tau[-1] - shown * 2 * np.pi / 0.9, delta=1e-9 * tau[-1])
             self.assertGreaterEqual(begin, 0)
+
+    def test_the_frame_cuts_no_marker_of_an_impact(self):
+        text = "[scene]\nf = -1\nh = 0.1\nR = 0.7\nxs = -3\nnu = 0.9\n[time]\nmax_periods = 200\nwindow = 20\n"
+        for more, panels in (("", 1), ("trajectory = 801\n", 3)):
+            self.make("run", "ends", text + "[observe]\nimpact_log = true\n" + more)
+            figure, found = pictures.single_figure(self.output("ends"), NO_CHOICE), 0
+            for axes in figure.axes:
+                marked = [line for line in axes.lines if line.get_marker() in "^v." and axes.get_xlabel()[:4] == "time"]
+                found += bool(marked)
+                for line in marked:
+                    places = axes.transData.transform(np.column_stack(line.get_data()))[:, 0]
+                    half = line.get_markersize() / 2 * figure.dpi / 72
+                    self.assertLessEqual(line.get_clip_box().x0, places.min() - half)
+                    self.assertGreaterEqual(line.get_clip_box().x1, places.max() + half)
+            self.assertEqual(found, panels)
 
     def test_a_few_states_of_a_section_are_seen(self):
         text = "[scene]\nf = -1\nh = 0.1\nR = 0.7\nxs = 0.5\nnu = 1.4\n[observe]\nsection = {}\n"

@@ -4,7 +4,9 @@ apart, no text lies on another or beyond the picture, and the panels keep their 
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
+import random
 import re
+import textwrap
 import unittest
 
 import numpy as np
@@ -46,6 +48,26 @@ SWEEPS = {
     "[time]\nmax_periods = 300\n[observe]\nsection = 40\nword = true\n",
 }
 MACHINES = {"many": ("0.5 mm", 0.7), "more": ("0.5 mm", 0.75), "most": ("0.45 mm", 0.72)}
+
+
+class Notes(unittest.TestCase):
+    def test_no_word_of_a_note_stands_alone(self):
+        """Lines are as few as they can be, and none is a rest of the others."""
+        generator = random.Random(67)
+        for _ in range(200):
+            words = ["x" * generator.randint(1, 9) for _ in range(generator.randint(1, 40))]
+            room = generator.randint(20, 90)
+            lines = style.even_lines(" ".join(words), room)
+            self.assertEqual(" ".join(lines), " ".join(words))
+            self.assertEqual(len(lines), len(textwrap.wrap(" ".join(words), room)))
+            self.assertLessEqual(max(map(len, lines)), room)
+            if len(lines) == 2:
+                self.assertLessEqual(len(lines[0]) - len(lines[1]), 10)
+        note = "no points of the sweep: a.h5 has no impact_speed, which a run with observe.impacts = true writes"
+        with style.own_style():
+            figure = style.new_figure(3.0, 6.5)
+            style.caption_below(figure, [note])
+        self.assertGreater(figure._supxlabel.get_text().split("\n")[-1].count(" "), 3)
 
 
 class Layout(PlotFolder):

@@ -5,6 +5,7 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 
 import unittest
 
+import h5py
 import numpy as np
 
 from plot_checks import overlapping_texts, texts_beyond
@@ -78,6 +79,19 @@ class Scatter(PlotFolder):
         self.assertEqual(len(set.union(*of_words.values())), len(of_words))
         entries = {text.get_text() for text in axes.get_legend().get_texts()}
         self.assertEqual(entries, set(of_words))
+
+    def test_symmetry_is_so_or_not(self):
+        """Over a key and in colours: two names, and no numbers between them."""
+        self.assertGreater(len(np.unique(self.output("sample").values("symmetric"))), 1)
+        figure = self.figure("sample", scatter="gap")
+        (axes,) = (axes for axes in figure.axes if axes.get_ylabel() == "symmetric motion")
+        self.assertEqual([text.get_text() for text in axes.get_yticklabels()], ["no", "yes"])
+        self.make("run", "told", CONFIGURATIONS["starts"].replace("attractor = true", "word = true"))
+        with h5py.File(self.folder / "told.h5", "r+") as file:
+            file["symmetric"][::2] = 0
+        figure = self.figure("told", only=("symmetric",))
+        (bar,) = (axes for axes in figure.axes if axes.get_label() == "<colorbar>")
+        self.assertEqual([text.get_text() for text in bar.get_yticklabels()], ["no", "yes"])
 
     def test_axes_that_cross_are_scattered_too(self):
         output = self.output("grid")

@@ -37,14 +37,14 @@ class Replace(CommandLine):
         self.assertNotEqual((self.directory / name).read_bytes(), before)
 
     def test_another_configuration_is_kept(self):
-        shutil.copy(SOURCE / "configs" / "fig18.toml", self.directory / "keep.toml")
+        shutil.copy(SOURCE / "configs" / "fig18.toml", self.directory / "keep")
         self.assert_kept(
-            "keep.toml",
+            "keep",
             "the file there is not an output of clatter, or is damaged",
             "run",
             SOURCE / "configs" / "fig18.toml",
             "-o",
-            "keep.toml",
+            "keep",
         )
 
     def test_files_that_are_no_whole_output_are_kept(self):

@@ -12,10 +12,12 @@ import numpy as np
 from command_line import SOURCE
 from report_runs import ReportRuns, data_of, doubles
 
-from clatter.plots.names import in_one_line
+from clatter.plots.data import Output
+from clatter.plots.names import in_one_line, label
 from clatter.reports.pictures import without_symbols
 
 CONFIGS = SOURCE / "configs"
+STARTS = ("sweep.x0=-1 mm, 1 mm", "sweep.v0=0 m/s, 0.1 m/s", "machine.frequency=26 Hz", "sweep.frequency=[26]")
 
 
 class Charts(ReportRuns):
@@ -126,13 +128,56 @@ class Charts(ReportRuns):
         self.assertNotRegex(words, r"[^\w ,]|_")
         for label, told in (
             ("velocity $x$′ (m s$^{-1}$)", "velocity"),
-            ("velocity before impact $x$′$^{{-}}$\nupper stop", "velocity before impact upper stop"),
+            ("velocity before impact $x$′$^{{-}}$\nupper stop", "velocity before impact, upper stop"),
             ("velocity ratio $|x$′$^{{-}}|$ / gap\n(s$^{-1}$)", "velocity ratio"),
             ("sensitivity ∂$T$/∂$k$ (s/(N m$^{-1}$)) in $10^{-5}$", "sensitivity"),
             ("initial velocity $x$′$(0)$", "initial velocity"),
             ("power lost in impacts (W)", "power lost in impacts"),
         ):
             self.assertEqual(without_symbols(label), told)
+
+    def test_the_words_of_a_picture_say_of_what_extremes_sections_and_sensitivities_are(self):
+        scene = "[scene]\nh = 0.1\nf = -1\nR = 0.7\n[sweep]\nnu = 'linspace(1, 1.2, 8)'\n"
+        observe = "[observe]\nextrema = true\nimpacts = true\nsection = 3\nsensitivity = 'xs, R'\n"
+        (self.directory / "map.toml").write_text(f"{scene}xs = 'linspace(2, 3, 7)'\n{observe}")
+        (self.directory / "line.toml").write_text(scene.replace("R = 0.7", "R = 0.7\nxs = -3") + observe)
+        told = {}
+        for name in ("map", "line"):
+            self.run_config(f"{name}.toml", f"{name}.h5")
+            page = self.page(f"{name}.h5", "--no-histories")
+            (told[name],) = re.findall(r'<img alt="Picture of .*?: (.*?)"', page)
+            for words in ("to the stop", "to the restitution"):
+                self.assertIn(f"sensitivity of the speed of the fastest impact {words}", told[name])
+            self.assertNotRegex(
+                told[name], r"\bto\b(?! the )|(^|, )(minimum|maximum|once)\b(?! (displacement|velocity))"
+            )
+        self.assertIn("maximum displacement, minimum velocity, maximum velocity", told["map"])
+        self.assertTrue(told["map"].endswith(" over excitation frequency and stop"), told["map"])
+        self.assertIn("displacement once a forcing period, velocity once a forcing period", told["line"])
+        self.assertIn("impacts per period, lower stop", told["map"])
+
+    def test_tables_and_axes_of_a_machine_have_their_units(self):
+        loaded = ("sweep.frequency=linspace(20 Hz, 24 Hz, 5)", "sweep.load=0 N, 3 N", "observe.energy=true")
+        self.run_config(CONFIGS / "rig.toml", "rig.h5", *loaded)
+        page = self.page("rig.h5", "--no-histories")
+        extremes = page[page.index("<h3>Extremes</h3>") :].split("</table>")[0]
+        for name in ("impact_speed[1] (m/s)", "impulse[-1] per forcing period (N s)", "impact_power (W)", "period (s)"):
+            self.assertIn(f"<tr><td>{name}</td>", extremes)
+        self.assertRegex(extremes, r"<td>frequency = \d+ Hz, load = \d N</td>")
+        self.assertIn("<tr><td>period_ratio</td>", extremes)
+        axes = {axis["name"]: axis["title"] for axis in data_of(page)["axes"]}
+        self.assertEqual(axes, {"frequency": "excitation frequency (Hz)", "load": "constant load (N)"})
+        output = Output(self.directory / "rig.h5")
+        self.assertEqual(label(output, "load"), axes["load"])  # as in pictures
+        self.run_config(CONFIGS / "rig.toml", "s.h5", *STARTS, "observe.attractor=true")
+        motions = self.page("s.h5", "--no-histories")
+        self.assertIn("<th scope=col>x (m)</th><th scope=col>x′ (m/s)</th>", motions)
+        along = ("branch.along=frequency", "branch.range=16 Hz, 27 Hz", "machine.frequency=26 Hz")
+        self.run_config(CONFIGS / "rig.toml", "b.h5", *along, command="branch")
+        special = self.page("b.h5", "--no-histories")
+        heads = [f"<th scope=col>{head}</th>" for head in ("frequency (Hz)", "x (m)", "v (m/s)", "impact speed (m/s)")]
+        table = special[special.index("<h3>Special points</h3>") :].split("</thead>")[0]
+        self.assertIn("".join(heads), table)
 
     def test_the_picture_has_a_role_a_label_and_words_and_only_the_place_is_told(self):
         self.run_config(CONFIGS / "rig.toml", "rig.h5")

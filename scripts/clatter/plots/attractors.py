@@ -4,8 +4,8 @@ import numpy as np
 from matplotlib import colors
 
 from .data import CREEPING, ESCAPED, FIRST_FAILURE, STARTS, has_failed
-from .maps import OLIVE, class_map, edges_between, name_colours, name_panel
-from .scales import shown_values, tidy_ticks
+from .maps import OLIVE, bar_style, class_map, edges_between, level_colours, name_colours, name_levels, name_panel
+from .scales import integer_levels, shown_values, tidy_ticks
 from .names import NO_CONTACT, STUCK, has_impacts, label, number, plain, short_word, symbol
 from .shown import note_plane
 from .style import COLOURS, GREEN, SKY, colour_of, legend_above
@@ -158,11 +158,16 @@ def value_points(figure, axes, output, name):
     note_plane(axes, (first, second))
     values = shown_values(output, name)
     known = np.isfinite(values)
-    points = axes.scatter(output.values(first)[known], output.values(second)[known], s=6, lw=0, c=values[known])
+    levels = integer_levels(values, name)  # of counts, and what is so or not
+    shade = level_colours(levels) if levels else None
+    look = {"cmap": shade.cmap, "norm": shade.norm} if shade else {}
+    places = (output.values(axis)[known] for axis in (first, second))
+    points = axes.scatter(*places, s=6, lw=0, c=values[known], **look)
     axes.set_xlabel(label(output, first))
     axes.set_ylabel(label(output, second))
     title = label(output, name)
-    name_panel(axes, title, tidy_ticks(figure.colorbar(points, ax=axes, pad=0.02).ax, title)["y"])
+    bar = figure.colorbar(points, ax=axes, pad=0.02, **bar_style(levels))
+    name_panel(axes, title, name_levels(bar, levels, name) if levels else tidy_ticks(bar.ax, title)["y"])
 
 
 def has_linked_starts(output):

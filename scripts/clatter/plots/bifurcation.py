@@ -6,6 +6,7 @@ from .curves import MARGIN, name_statuses
 from .scales import shown_values
 from .names import NO_CONTACT, in_frame, label, short_word, symbol, with_unit
 from .empty import say_empty
+from .shown import note_results
 from .style import BLUE, CYCLE, GREEN, STOP, VERMILION, colour_of, legend_above, set_axis
 
 FEW, MANY = 40, 2000  # points, up to which they are large, and from which on they are small
@@ -34,6 +35,7 @@ def instants(output):
 def section_diagram(members, name, axes):
     """The states of each point's section over the only axis."""
     axis = members[0].output.axes[0]
+    note_results(axes, [(name, None)])
     for place, member in enumerate(members):
         values = shown_values(member.output, name)
         known = np.isfinite(values)

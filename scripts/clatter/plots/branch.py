@@ -12,6 +12,7 @@ from .branch_names import REST, colours_and_names, prefixed
 from .choice import ChoiceProblem, differences
 from .maps import Grid, edges_between, kind_map, regime_map
 from .names import label, plain
+from .shown import note_results
 from .style import STOP, caption_below, colour_of, legend_above, new_figure
 
 PANELS = ("v_max", "impact_speed")  # unless --only names others
@@ -69,6 +70,7 @@ def branch_figure(outputs, options):
             draw_branches(axes, output, parameter, name, colours, place)
         for output in branches:
             draw_specials(axes, output, parameter, name)
+        note_results(axes, [(name, None)])
         axes.set_ylabel(label(branches[0], name))
         ranges = [output.config["branch"]["range"] for output in branches]
         axes.set_xlim(min(low for low, _ in ranges), max(high for _, high in ranges))

@@ -10,7 +10,7 @@ from .changes import changes_of_motion
 from .data import ESCAPED, has_failed, lacks_period
 from .scales import COUNTS, is_integer, shown_values
 from .per_period import IN_TIME, PER_PERIOD
-from .names import amount, in_frame, label, plain, result_in_words, symbol, with_unit
+from .names import YES_OR_NO, amount, in_frame, label, plain, result_in_words, symbol, with_unit
 from .shown import note_results
 from .style import BLUE, STOP, colour_of, draw_walls, legend_above, set_axis
 
@@ -157,19 +157,25 @@ def curves(members, group, axes):
     for member in members:
         name_statuses(axes, member.output, name, shown=shown)
     axes.set_ylabel(common_label(members, group))
-    if first == "period_ratio":
-        axes.set_ylim(0.5, (axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1) + 0.5)  # none may have a period
-    if first == "impacts_per_period" or all(is_integer(shown_values(output, result)) for result, _, _ in group):
-        axes.yaxis.set_major_locator(ticker.MaxNLocator(integer=True))
-    if first == "symmetric":
-        axes.set_yticks([0, 1], labels=["no", "yes"])
-        axes.set_ylim(-0.15, 1.15)
-    if first in ("rest_fraction", "stick_fraction", "contact_fraction"):
-        axes.set_ylim(-0.02, max(1.02 * axes.get_ylim()[1], 0.1))
+    set_ordinate(axes, output, [result for result, _, _ in group])
     if output.follow == name and not several:
         rises = (output.values(name)[-1] > output.values(name)[0]) != output.goes_down
         axes.set_xlabel(f"{label(output, name)}, followed " + (r"$\rightarrow$" if rises else r"$\leftarrow$"))
     legend_above(axes, columns=3 if several or len(axes.get_legend_handles_labels()[0]) > 4 else 4)
+
+
+def set_ordinate(axes, output, results):
+    """Ticks and limits for counts, shares, and what is so or not."""
+    first = results[0]
+    if first == "period_ratio":
+        axes.set_ylim(0.5, (axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1) + 0.5)  # none may have a period
+    if first == "impacts_per_period" or all(is_integer(shown_values(output, result)) for result in results):
+        axes.yaxis.set_major_locator(ticker.MaxNLocator(integer=True))
+    if first in YES_OR_NO:
+        axes.set_yticks([0, 1], labels=["no", "yes"])
+        axes.set_ylim(-0.15, 1.15)
+    if first in ("rest_fraction", "stick_fraction", "contact_fraction"):
+        axes.set_ylim(-0.02, max(1.02 * axes.get_ylim()[1], 0.1))
 
 
 def have_same_stops(members):

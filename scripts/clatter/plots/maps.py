@@ -10,7 +10,8 @@ from matplotlib.image import AxesImage
 from .choice import ChoiceProblem
 from .data import APERIODIC, CREEPING, ESCAPED, FIRST_FAILURE, GRAZING, UNDECIDED, has_failed, lacks_period
 from .scales import integer_levels, shown_values, tidy_ticks
-from .names import label, number, plain
+from .names import YES_OR_NO, label, number, plain
+from .shown import note_results
 from .style import BLUE, CYCLE, GREEN, ORANGE, is_geometric
 
 PIXELS = 900  # along an axis of an image, if its cells aren't all equal
@@ -162,6 +163,7 @@ def edges_between(places):
 def value_map(figure, axes, grid, shown, status):
     """A quantity in colours; hatched where motion has no period, black where the point failed. Returns the notes that
     explain it."""
+    note_results(axes, [(shown.name, None)])
     values = np.where(status >= FIRST_FAILURE, np.nan, shown.values)
     levels = None if shown.is_angle else integer_levels(values, shown.name)
     shade = level_colours(levels) if levels else range_colours(values, shown.is_angle)
@@ -201,7 +203,7 @@ def bar_style(levels):
 
 def name_levels(bar, levels, name):
     """Numbers beside the whole ones in a colour bar."""
-    words = {"symmetric": ("no", "yes")}.get(name, tuple(map(str, levels.integers)))
+    words = ["no", "yes"] if name in YES_OR_NO else list(map(str, levels.integers))
     bar.set_ticks(levels.integers, labels=words)
     bar.ax.tick_params(which="both", length=0)
     bar.minorticks_off()

@@ -1,6 +1,7 @@
 """Panels of the motion itself: time histories, phase planes, impacts."""
 
 import numpy as np
+from matplotlib import transforms
 
 from .data import lacks_period
 from .names import equation, label
@@ -79,6 +80,24 @@ def mark_impacts(output, index, draw, color):
     draw(times[late], position[late], before[late], {"ls": "none", "marker": ".", "ms": 4.5, "mew": 0, "color": color})
 
 
+class Beside(transforms.BboxBase):
+    """The box of a panel, and as much beside it as half a marker of this size, in points, takes."""
+
+    def __init__(self, axes, size):
+        super().__init__()
+        self.axes, self.marker = axes, size
+
+    def get_points(self):
+        half = self.marker / 2 * self.axes.figure.dpi / 72.0
+        return self.axes.bbox.get_points() + [[-half, 0.0], [half, 0.0]]
+
+
+def show_whole(markers):
+    """Has the frame of their panel cut no markers at its sides."""
+    for line in markers:
+        line.set_clip_box(Beside(line.axes, line.get_markersize() + line.get_markeredgewidth()))
+
+
 def time_history(output, quantity, points, axes, end=None):
     """x or x' against time, for one point or a few; periodic motion is repeated to `end`."""
     for place, (point, title) in enumerate(points):
@@ -89,7 +108,10 @@ def time_history(output, quantity, points, axes, end=None):
             axes.set_xlim(0.0, end)
         axes.plot(tau, values, color=color, lw=width, label=title or None)
         mark_impacts(
-            output, point, lambda t, p, w, style: axes.plot(t, p if quantity == "x" else w, **style), VERMILION
+            output,
+            point,
+            lambda t, p, w, style: show_whole(axes.plot(t, p if quantity == "x" else w, **style)),
+            VERMILION,
         )
     axes.margins(y=0.08)
     if quantity == "x":
@@ -139,15 +161,8 @@ def impact_log(output, index, axes, period=None):
         hit = sides == side
         if hit.any():
             axes.vlines(times[hit], 0.0, before[hit], color=color, lw=1.0)
-            axes.plot(
-                times[hit],
-                before[hit],
-                ls="none",
-                marker=marker,
-                ms=4.5 if len(times) < 40 else 3.0,
-                color=color,
-                label=output.stop_name(side),
-            )
+            look = {"ls": "none", "marker": marker, "ms": 4.5 if len(times) < 40 else 3.0, "color": color}
+            show_whole(axes.plot(times[hit], before[hit], label=output.stop_name(side), **look))
     axes.margins(y=0.1)
     axes.set_xlim(begin, end if end is None or np.isfinite(end) else None)
     axes.set_xlabel(label(output, "tau"))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .curves import MANY, MARGIN, draw_stops_along, label_of, name_statuses
+from .curves import MANY, MARGIN, draw_stops_along, label_of, name_statuses, set_ordinate
 from .data import lacks_period
 from .names import NO_CONTACT, PLACES, short_word
 from .scales import shown_values
@@ -47,4 +47,5 @@ def word_scatter(members, parts, axes):
         draw_stops_along(axes, output, output.axes[0])
     name_statuses(axes, output, output.axes[0], shown=lacks_period(output.values("status")).any())
     axes.set_ylabel(label_of(output, parts))
+    set_ordinate(axes, output, [name])
     legend_above(axes, columns=4)

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from .choice import ChoiceProblem, condition, differing_keys
+from .choice import ChoiceProblem, condition, differing_keys, matters
 from .names import equation, label, plain, scale_in, symbol, typeset_unit
 
 DPI = 200  # of PNG; texts are measured for it, once
@@ -137,7 +137,7 @@ def title_lines(figure, title, to_text):
     width = heading_width(figure, to_text(title))
     room = int(0.97 * figure.bbox.width / max(width, 1.0) * len(title))
     joined = re.sub(r" (?== )|(?<= =) ", "\0", title)
-    parts = [title] if room >= len(title) else textwrap.wrap(joined, room)
+    parts = [title] if room >= len(title) else even_lines(joined, room)
     return [to_text(part.replace("\0", " ")) for part in parts]
 
 
@@ -169,9 +169,16 @@ def caption_below(figure, notes):
         if lines and len(lines[-1]) + len(note) + 4 <= room:
             lines[-1] += f";   {note}"
         else:
-            lines += textwrap.wrap(note, room)
+            lines += even_lines(note, room)
     figure.supxlabel("\n".join(lines), fontsize=9.5, linespacing=1.4)
     figure.set_figheight(figure.get_figheight() + NOTE * max(0, len(lines) - 2))
+
+
+def even_lines(text, room):
+    """A text in as few lines of so many letters as it needs, about as long as each other: no word stands alone."""
+    lines = textwrap.wrap(text, room)
+    narrower = (textwrap.wrap(text, width) for width in range(-(-len(text) // max(len(lines), 1)), room))
+    return next((even for even in narrower if len(even) == len(lines)), lines)
 
 
 def gathered(notes):
@@ -198,6 +205,7 @@ def constants(output, title, others=()):
     }  # nothing to say at these values
     named = {key for key in output.constants if names_key(title, key)}
     keys = [key for key in output.constants if key in output.scene and key not in named and not output.swept(key)]
+    keys = [key for key in keys if matters(output, key)]
     keys = [key for key in keys if len({condition(other, key) for other in (output, *others)}) == 1]
     forces = ("force" if output.is_si else "f", "stop_amplitude", "base_amplitude")
     if not any(float(output.scene.get(key, 0.0)) or output.swept(key) for key in forces):

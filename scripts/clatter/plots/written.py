@@ -9,7 +9,7 @@ from .._command import run_child
 from .._program import program
 
 LONGEST = 60  # seconds that the program may take for one
-WITH_UNIT = r"[-+]?(\d|\.\d|pi).*"
+WITH_UNIT = r"[-+\u2010-\u2015\u2212]?(\d|\.\d|pi).*"  # a typeset minus is told by the program
 
 
 class Written(float):

@@ -11,6 +11,7 @@ from ..plots.shown import plane_in, results_in
 
 LARGEST = 1_500_000  # bytes of a picture
 SYMBOL = r"(?:[^\s,$]*\$[^$]*\$)+[^\s,$]*(?: / \S+)?"
+EXTREMES = ("minimum", "maximum")  # whose symbols say of what
 RESOLUTIONS = (150, 110, 80, 55)  # dots per inch of what is drawn as an image
 
 
@@ -31,19 +32,38 @@ def picture(output, points):
 
 
 def in_words(figure, output):
-    """What the panels of a figure show, without symbols and units: "displacement, velocity over nu"."""
+    """What the panels of a figure show, without symbols and units: "displacement, velocity over nu"; of maps over
+    both axes: "over nu and xs"."""
     panels = [axes for axes in figure.axes if axes.axison and axes.get_label() != "<colorbar>"]
     shown = dict.fromkeys(result_words(axes, output) for axes in panels)
     over = dict.fromkeys(without_symbols(axes.get_xlabel()) for axes in panels)
-    return " over ".join(", ".join(filter(None, words)) for words in (shown, over) if any(words))
+    up = dict.fromkeys(without_symbols(axes.get_ylabel()) for axes in panels if is_map(axes))
+    parts = [", ".join(filter(None, words)) for words in (shown, over)]
+    return " and ".join(filter(None, (" over ".join(filter(None, parts)), *up)))
+
+
+def is_map(axes):
+    return any(isinstance(image, AxesImage) for image in axes.images)
 
 
 def result_words(axes, output):
-    """What a panel shows. The label of a sensitivity may be all symbols."""
-    shown = [name for name, _ in results_in(axes) if name in output and names.is_sensitivity(output[name])]
-    if shown:
-        return ", ".join(names.result_in_words(output, name) for name in dict.fromkeys(shown))
-    return without_symbols(axes.get_title() or axes.get_ylabel())
+    """What a panel shows. A label may be short of words beside its symbol: that of an extreme, a section, a
+    sensitivity."""
+    text = axes.get_title() or axes.get_ylabel()
+    shown = list(dict.fromkeys(name for name, _ in results_in(axes) if name in output))
+    if any(names.is_sensitivity(output[name]) for name in shown):
+        return ", ".join(names.result_in_words(output, name) for name in shown)
+    if len(shown) == 1 and shown[0] in names.RECORDED.values():
+        return f"{names.words_of(output, shown[0])} {without_symbols(text)}"
+    if len(shown) == 1 and names.words_of(output, shown[0]) in EXTREMES:
+        return without_symbols(text).replace(*extreme_in_words(output, shown[0]))
+    return without_symbols(text)
+
+
+def extreme_in_words(output, name):
+    """The word of a label for an extreme, and that which says of what."""
+    word, quantity = names.words_of(output, name), names.words_of(output, name.partition("_")[0])
+    return word, f"{word} {quantity}"
 
 
 def without_symbols(text):
@@ -52,6 +72,7 @@ def without_symbols(text):
     while (shorter := re.sub(r"(?<!\$)\([^()]*\)", " ", text)) != text:
         text = shorter
     text = re.sub(rf"(\bin )?{SYMBOL}", " ", text)
+    text = re.sub(r"(?<!\bthe)[,\s]+((lower|upper)\s+(stop|wall))\s*$", r", \1", text)  # a component
     return " ".join(text.split()).replace(" ,", ",")
 
 
@@ -81,7 +102,7 @@ def sweep_panels(figure, points, outputs):
     for axes in figure.axes:
         if axes.get_label() == "<colorbar>":
             continue
-        if len(places) == 2 and any(isinstance(image, AxesImage) for image in axes.images):
+        if len(places) == 2 and is_map(axes):
             panels.append(frame(axes, axes=places))
         elif plane_in(axes):
             panels.append(frame(axes, plane=plane_in(axes)))

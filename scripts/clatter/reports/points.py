@@ -6,6 +6,7 @@ import zlib
 
 import numpy as np
 
+from ..plots.names import in_one_line, names_of
 from ..plots.per_period import IN_TIME, TOTALS, compared
 
 MOST = 200  # points along an axis of a map
@@ -70,9 +71,10 @@ class Points:
 
     def input(self, name, place):
         unit = self.output[name].units
+        words = names_of(self.output, name)[0] or self.output[name].long_name  # as in pictures
         return {
             "name": name,
-            "title": self.output[name].long_name + (f" ({unit})" if unit != "1" else ""),
+            "title": words + (f" ({in_one_line(unit)})" if unit != "1" else ""),
             "values": packed(self.output.values(name)[self.kept[place]]),
         }
 
@@ -87,7 +89,11 @@ class Points:
 
     def column(self, name, variable, part):
         values = variable.values[np.ix_(*self.kept)][(..., *part)] if self.kept else variable.values[part]
-        item = {"name": name, "title": variable.long_name, "unit": variable.units if variable.units != "1" else ""}
+        item = {
+            "name": name,
+            "title": variable.long_name,
+            "unit": in_one_line(variable.units) if variable.units != "1" else "",
+        }
         if IN_TIME in variable.long_name:
             item["over"] = IN_TIME  # not per forcing period, as pictures and extremes have it
         if variable.name == "status":

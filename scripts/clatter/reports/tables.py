@@ -6,6 +6,7 @@ import numpy as np
 
 from ..plots.attractors import name_of
 from ..plots.data import FIRST_FAILURE
+from ..plots.names import in_one_line
 from ..plots.per_period import PER_PERIOD, TOTALS, compared
 
 MOST = 300  # rows
@@ -58,7 +59,7 @@ def special_points(output):
         rows.append([str(kind), *(plain(output.values(name)[place]) for name in names), multipliers])
     if not rows:
         return "<h3>Special points</h3><p>There are none.</p>"
-    heads = [name.removeprefix("special_").replace("_", " ") for name in names]
+    heads = [with_unit(name.removeprefix("special_").replace("_", " "), output[name].units) for name in names]
     return table("Special points", ["kind", *heads, "multipliers"], rows)
 
 
@@ -85,7 +86,8 @@ def motions(output):
         rows.append([*row, *(output.values(f"motion_{name}")[motion] for name in ("period_ratio", "x", "v"))])
     where = ["at", f"found at, of {shares[..., 0].size}"] if parameters else []
     share = "largest share" if parameters else "share"
-    heads = ["number", "motion", share, "at least", "at most", *where, "periods of the force", "x", "x′"]
+    states = [with_unit(sign, output[f"motion_{name}"].units) for sign, name in (("x", "x"), ("x′", "v"))]
+    heads = ["number", "motion", share, "at least", "at most", *where, "periods of the force", *states]
     note = "The bounds of a share hold with 95 % confidence; x and x′ are the motion's state at forcing phase 0"
     return table("Motions", heads, rows, note + (", at the first parameters that have it." if parameters else "."))
 
@@ -102,7 +104,7 @@ def extremes(output, points):
         if not known.any():
             continue
         least, most = (find(np.where(known, values, bad)) for find, bad in ((np.argmin, np.inf), (np.argmax, -np.inf)))
-        row = [name]
+        row = [with_unit(name, variable.units)]
         for flat in (least, most):
             index = np.unravel_index(flat, values.shape)
             row += [values[index], ", ".join(place_of(output, axis, i) for axis, i in zip(output.axes, index))]
@@ -111,7 +113,17 @@ def extremes(output, points):
 
 
 def place_of(output, axis, index):
-    return f"{axis} = {shown(output.values(axis)[index])}"
+    return f"{axis} = {shown(output.values(axis)[index])} {unit_in(output, axis)}".strip()
+
+
+def unit_in(output, name):
+    """The unit of a variable, "" if it has none."""
+    return "" if output[name].units == "1" else in_one_line(output[name].units)
+
+
+def with_unit(name, units):
+    """The name of numbers of a table, and their unit in brackets if they have one."""
+    return name if units == "1" else f"{name} ({in_one_line(units)})"
 
 
 def outcomes(output):
@@ -131,4 +143,5 @@ def methods(output):
     for place in range(len(first["method"])):
         row = [first[name][place] for name in names if name != "method"]
         rows.append([output.methods.get(int(first["method"][place]), "?"), *map(plain, row)])
-    return table("Methods and settings", ["method", *(name for name in names if name != "method")], rows)
+    heads = [with_unit(name, output[name].units) for name in names if name != "method"]
+    return table("Methods and settings", ["method", *heads], rows)
