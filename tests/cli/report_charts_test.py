@@ -126,7 +126,7 @@ class Charts(ReportRuns):
         self.assertIn("sensitivity of the speed of the fastest impact to the gap", words)
         self.assertIn("sensitivity of the speed of the fastest impact to the stiffness", words)
         self.assertNotRegex(words, r"[^\w ,]|_")
-        for label, told in (
+        for text, told in (
             ("velocity $x$′ (m s$^{-1}$)", "velocity"),
             ("velocity before impact $x$′$^{{-}}$\nupper stop", "velocity before impact, upper stop"),
             ("velocity ratio $|x$′$^{{-}}|$ / gap\n(s$^{-1}$)", "velocity ratio"),
@@ -134,7 +134,7 @@ class Charts(ReportRuns):
             ("initial velocity $x$′$(0)$", "initial velocity"),
             ("power lost in impacts (W)", "power lost in impacts"),
         ):
-            self.assertEqual(without_symbols(label), told)
+            self.assertEqual(without_symbols(text), told)
 
     def test_the_words_of_a_picture_say_of_what_extremes_sections_and_sensitivities_are(self):
         scene = "[scene]\nh = 0.1\nf = -1\nR = 0.7\n[sweep]\nnu = 'linspace(1, 1.2, 8)'\n"
@@ -161,9 +161,14 @@ class Charts(ReportRuns):
         self.run_config(CONFIGS / "rig.toml", "rig.h5", *loaded)
         page = self.page("rig.h5", "--no-histories")
         extremes = page[page.index("<h3>Extremes</h3>") :].split("</table>")[0]
-        for name in ("impact_speed[1] (m/s)", "impulse[-1] per forcing period (N s)", "impact_power (W)", "period (s)"):
+        for name in (
+            "impact_speed[1] (m/s)",
+            "impulse[-1] per forcing period (N\u00a0s)",
+            "impact_power (W)",
+            "period (s)",
+        ):
             self.assertIn(f"<tr><td>{name}</td>", extremes)
-        self.assertRegex(extremes, r"<td>frequency = \d+ Hz, load = \d N</td>")
+        self.assertRegex(extremes, r"<td>frequency = \d+\u00a0Hz, load = \d\u00a0N</td>")
         self.assertIn("<tr><td>period_ratio</td>", extremes)
         axes = {axis["name"]: axis["title"] for axis in data_of(page)["axes"]}
         self.assertEqual(axes, {"frequency": "excitation frequency (Hz)", "load": "constant load (N)"})

@@ -10,6 +10,7 @@ from ..plots.names import in_one_line
 from ..plots.per_period import PER_PERIOD, TOTALS, compared
 
 MOST = 300  # rows
+BLANK = "\N{NO-BREAK SPACE}"  # in units, which no line ends within
 
 
 def table(title, heads, rows, note=""):
@@ -113,17 +114,13 @@ def extremes(output, points):
 
 
 def place_of(output, axis, index):
-    return f"{axis} = {shown(output.values(axis)[index])} {unit_in(output, axis)}".strip()
-
-
-def unit_in(output, name):
-    """The unit of a variable, "" if it has none."""
-    return "" if output[name].units == "1" else in_one_line(output[name].units)
+    number, units = shown(output.values(axis)[index]), output[axis].units
+    return f"{axis} = {number}" if units == "1" else f"{axis} = {number}{BLANK}{in_one_line(units)}"
 
 
 def with_unit(name, units):
     """The name of numbers of a table, and their unit in brackets if they have one."""
-    return name if units == "1" else f"{name} ({in_one_line(units)})"
+    return name if units == "1" else f"{name} ({in_one_line(units).replace(' ', BLANK)})"
 
 
 def outcomes(output):
