@@ -151,7 +151,8 @@ std::vector<const CataloguedResult*> results_named(std::string_view name) {
   };
   for (const CataloguedResult& result : result_catalogue())
     if (is_meant(result)) named.push_back(&result);
-  std::ranges::stable_partition(named, [&](const CataloguedResult* result) { return result->name == name; });
+  std::stable_partition(named.begin(), named.end(),
+                        [&](const CataloguedResult* result) { return result->name == name; });
   if (!named.empty()) return named;
   static std::map<std::string, std::optional<CataloguedResult>, std::less<>> derivatives;
   const auto known = derivatives.try_emplace(std::string(name), derivative_named(name)).first;
