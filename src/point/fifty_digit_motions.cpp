@@ -2,6 +2,6 @@
 
 namespace clatter::point {
 
-template struct InDigits<FiftyDigits>;
+template struct InDigits<WideFloat>;
 
 }  // namespace clatter::point

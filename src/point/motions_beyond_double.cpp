@@ -5,20 +5,20 @@ namespace clatter::point {
 std::vector<motion::State<double>> periodic_sections(const Problem& problem, const motion::State<double>& near,
                                                      std::int64_t periods) {
   if (auto found = InDigits<DoubleDouble>::fixed_point(problem, near, periods)) return std::move(found->sections);
-  if (auto found = InDigits<FiftyDigits>::fixed_point(problem, near, periods)) return std::move(found->sections);
+  if (auto found = InDigits<WideFloat>::fixed_point(problem, near, periods)) return std::move(found->sections);
   return {};
 }
 
 std::optional<ReleasedMotion> released_motion(const Problem& problem, Side side, std::int64_t periods) {
   if (!can_hold(problem, side)) return std::nullopt;
   if (auto motion = InDigits<DoubleDouble>::released_motion(problem, side, periods)) return motion;
-  return InDigits<FiftyDigits>::released_motion(problem, side, periods);
+  return InDigits<WideFloat>::released_motion(problem, side, periods);
 }
 
 RestingMotion resting_motion(const Problem& problem, Side side) {
   if (!can_hold(problem, side)) return {};
   const RestingMotion motion = InDigits<DoubleDouble>::resting_motion(problem, side);
-  return motion.kind != RestingMotion::Kind::undecided ? motion : InDigits<FiftyDigits>::resting_motion(problem, side);
+  return motion.kind != RestingMotion::Kind::undecided ? motion : InDigits<WideFloat>::resting_motion(problem, side);
 }
 
 }  // namespace clatter::point

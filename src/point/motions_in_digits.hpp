@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "math/double_double.hpp"
+#include "math/wide_functions.hpp"
 #include "motion/tangent_map.hpp"
 #include "point/error_watch.hpp"
 #include "point/every_effect.hpp"
@@ -214,6 +215,6 @@ struct InDigits {
 };
 
 extern template struct InDigits<DoubleDouble>;
-extern template struct InDigits<FiftyDigits>;
+extern template struct InDigits<WideFloat>;
 
 }  // namespace clatter::point

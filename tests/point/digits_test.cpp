@@ -44,7 +44,7 @@ TEST(Digits, MotionFromAReleaseIsTheSameIn31AndIn50) {
     const Problem scene = pressed_scene(random);
     const RestingMotion few = InDigits<DoubleDouble>::resting_motion(scene, Side::lower);
     if (few.kind == Kind::undecided) continue;
-    const RestingMotion many = InDigits<FiftyDigits>::resting_motion(scene, Side::lower);
+    const RestingMotion many = InDigits<WideFloat>::resting_motion(scene, Side::lower);
     EXPECT_EQ(few.kind, many.kind) << i;
     ++told;
     if (few.kind != Kind::periodic) continue;
@@ -71,11 +71,14 @@ TEST(Digits, PeriodicMotionIsTheSameIn31AndIn50) {
     scene.start.phase = result.end.phase;
     const auto periods = static_cast<std::int64_t>(result.observed_turns);
     const auto few = InDigits<DoubleDouble>::fixed_point(scene, near, periods);
-    const auto many = InDigits<FiftyDigits>::fixed_point(scene, near, periods);
+    const auto many = InDigits<WideFloat>::fixed_point(scene, near, periods);
     if (!few) continue;
     ASSERT_TRUE(many) << i;
     ++found;
     expect_same_sections(few->sections, many->sections, i);
+    const auto reference = fixed_point(scene, near, periods);  // in Boost's numbers, without double
+    ASSERT_TRUE(reference) << i;
+    expect_same_sections(many->sections, reference->sections, i);
   }
   EXPECT_GT(found, 20);
 }
