@@ -51,10 +51,11 @@ class Sets:
             for i, text in enumerate(texts):
                 self.begin_again(i, text, parameter_of(text))
 
-    def configuration(self, scene, way=Way()):
-        values = way.keys_of(scene)
+    def configuration(self, scene, way=Way(), begun=None):
+        """Along the frequency on both sides of that of a scene, begun with it or with another one."""
+        values, given = way.keys_of(begun or scene), way.keys_of(scene)
         key = "nu" if "nu" in values else "frequency"
-        low, high = 0.85 * values[key], 1.15 * values[key]
+        low, high = 0.85 * given[key], 1.15 * given[key]
         branch = f'[branch]\nalong = "{key}"\nrange = [{low!r}, {high!r}]\nswitch = 1\nmax_points = {MOST}\n'
         lines = "".join(f"{name} = {value!r}\n" for name, value in values.items())
         return f"{way.section}{lines}[time]\nmax_periods = 600\nmax_impacts = 20000\n{OBSERVED}{branch}", key
@@ -87,8 +88,8 @@ class Sets:
             return
         everything, branch, output = found
         # begun with the motion that the scene settled on: the other one may settle on another, if chaos decides
-        there, period = self.settled(scene, output)
-        other, name = self.configuration(there, machine())
+        begun, period = self.settled(scene, output)
+        other, name = self.configuration(scene, machine(), begun)
         in_si = self.follow(other, name, 2 * np.pi, ("--set", f"branch.period={period}"))
         met = set(range(int(branch.max()) + 1))
         self.same("as a machine", i, in_si, everything, met, text)
@@ -119,11 +120,12 @@ class Sets:
 
     @staticmethod
     def settled(scene, output):
-        """A scene that begins with the motion of branch 0 at its own frequency, and how many periods that has."""
+        """A scene begun with the motion of branch 0 nearest to its frequency, and how many periods that has."""
         with h5py.File(output) as data:
-            at = np.flatnonzero((data["branch"][()] == 0) & (data["nu"][()] == scene.nu))[0]
-            x, v, periods = (float(data[name][at]) for name in ("x", "v", "period_ratio"))
-        return replace(scene, phase=0.0, x0=x, v0=v), int(periods)
+            of_branch = np.flatnonzero(data["branch"][()] == 0)
+            at = of_branch[np.argmin(np.abs(data["nu"][()][of_branch] - scene.nu))]
+            nu, x, v, periods = (float(data[name][at]) for name in ("nu", "x", "v", "period_ratio"))
+        return replace(scene, nu=nu, phase=0.0, x0=x, v0=v), int(periods)
 
     @staticmethod
     def middle(output, points):
