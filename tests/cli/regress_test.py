@@ -113,7 +113,7 @@ class Regress(RegressRuns):
             "fig20": "v_before is new",
             "fig19": "no output",
         }
-        for baseline in (TEXT, self.outputs):
+        for baseline in (TEXT, self.edited()):
             self.assert_differ(self.regress(baseline, CLATTER=self.changed(**settings)), **expected)
 
     @NEEDS_H5DIFF
