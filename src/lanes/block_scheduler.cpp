@@ -110,15 +110,24 @@ void BlockScheduler<E>::handle_sections(Block<Task>& block) {
 
 template <Effects E>
 void BlockScheduler<E>::handle_section(Block<SettleTask<E>>& block, std::size_t lane) {
-  LaneView view = block.view(lane);
-  SettleTask<E>& task = *block.tasks[lane];
-  auto settled = task.pass_section(view);
+  if (block.tasks[lane]->pass_section(block.view(lane))) look(lane);
+}
+
+/// Shows the search the sections that a lane has passed; returns whether its point goes on in the lane.
+template <Effects E>
+bool BlockScheduler<E>::look(std::size_t lane) {
+  LaneView view = settling_.view(lane);
+  SettleTask<E>& task = *settling_.tasks[lane];
+  auto settled = task.look(view);
   if (settled) {
-    leave(block, lane);
+    leave(settling_, lane);
     finish(std::move(*settled));
   } else if (task.leaves_lane()) {
-    hand_over(block, lane);
+    hand_over(settling_, lane);
+  } else {
+    return true;
   }
+  return false;
 }
 
 template <Effects E>
@@ -132,6 +141,7 @@ void BlockScheduler<E>::handle_section(Block<ObserveTask<E>>& block, std::size_t
 
 template <Effects E>
 void BlockScheduler<E>::fall_back(Block<SettleTask<E>>& block, std::size_t lane) {
+  if (!look(lane)) return;
   SettleTask<E>& task = *block.tasks[lane];
   LaneView view = block.view(lane);
   const stepping::Outcome outcome = task.fall_back(view);
@@ -169,6 +179,8 @@ double BlockScheduler<E>::take_stock(Block<Task>& block) {
   double shares = 0;
   for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
     if (!block.tasks[lane]) continue;
+    if constexpr (std::is_same_v<Task, SettleTask<E>>)
+      if (!look(lane)) continue;
     const LaneView view = block.view(lane);
     if (block.tasks[lane]->has_spent_budget(view))
       fail(block, lane, stepping::Outcome::event_budget);

@@ -51,6 +51,7 @@ class BlockScheduler {
   template <class Task>
   void handle_sections(Block<Task>& block);
   void handle_section(Block<SettleTask<E>>& block, std::size_t lane);
+  bool look(std::size_t lane);
   void handle_section(Block<ObserveTask<E>>& block, std::size_t lane);
   void fall_back(Block<SettleTask<E>>& block, std::size_t lane);
   void fall_back(Block<ObserveTask<E>>& block, std::size_t lane);

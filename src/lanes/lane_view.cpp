@@ -173,9 +173,8 @@ void LaneView::set_state(const LaneState& state, double sections_between) {
   at(block_->excess) = 0;
 }
 
-LaneSection LaneView::section() const {
-  return {x_of(at(block_->section_y)), at(block_->section_v), at(block_->section_impacts),
-          std::bit_cast<std::uint64_t>(at(block_->section_itinerary)), at(block_->cushioned.section_log_area)};
+LaneSection LaneView::section_of(const LaneReport& report) const {
+  return {x_of(report.y), report.v, report.impacts, std::bit_cast<std::uint64_t>(report.itinerary), report.log_area};
 }
 
 PhaseState LaneView::section_from_load() const {

@@ -35,6 +35,11 @@ struct LaneSection {
   double log_area;          ///< logarithm of the factor by which soft stops have shrunk areas of states since then
 };
 
+/// The same as the lane reports it: its displacement from the load's equilibrium, its itinerary as a number.
+struct LaneReport {
+  double y, v, impacts, itinerary, log_area;
+};
+
 struct Observed;
 
 /// Whether a scene can run in a lane: forced motion between stops, lightly damped, away from resonance, with lengths
@@ -81,7 +86,12 @@ class LaneView {
   [[nodiscard]] double turns_of_two_steps() const { return 2 * at(block_->step) / at(block_->period); }
 
   /// The section that the lane has passed.
-  [[nodiscard]] LaneSection section() const;
+  [[nodiscard]] LaneReport report() const {
+    return {at(block_->section_y), at(block_->section_v), at(block_->section_impacts), at(block_->section_itinerary),
+            at(block_->cushioned.section_log_area)};
+  }
+  [[nodiscard]] LaneSection section_of(const LaneReport& report) const;
+  [[nodiscard]] LaneSection section() const { return section_of(report()); }
   /// Its state there, from the load's equilibrium.
   [[nodiscard]] PhaseState section_from_load() const;
   /// Replaces its state there, given from the load's equilibrium.

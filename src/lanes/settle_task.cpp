@@ -29,8 +29,18 @@ std::optional<SettledPoint<E>> SettleTask<E>::begin(LaneView& lane) {
 }
 
 template <Effects E>
-std::optional<SettledPoint<E>> SettleTask<E>::pass_section(LaneView& lane) {
-  const LaneSection section = lane.section();
+std::optional<SettledPoint<E>> SettleTask<E>::look(LaneView& lane) {
+  if (passed_ == 0) return std::nullopt;
+  const std::size_t passed = std::exchange(passed_, 0);
+  for (std::size_t i = 0; i < passed && !leaves_lane(); ++i)
+    if (auto found = look_at(lane.section_of(unseen_[i]))) return found;
+  lane.expect_section(false, false, after_report_);
+  together_ = looked_at_together();
+  return std::nullopt;
+}
+
+template <Effects E>
+std::optional<SettledPoint<E>> SettleTask<E>::look_at(const LaneSection& section) {
   const double impacts = loop().impacts() + section.impacts;
   sections_ += to_report_;
   if (impacts > item_.problem.time.max_impacts)
@@ -39,12 +49,24 @@ std::optional<SettledPoint<E>> SettleTask<E>::pass_section(LaneView& lane) {
   if constexpr (E.soft) log_area = section.log_area;
   search_->pass_periods({section.itinerary, log_area, fallback_.take_holding_stop()}, to_report_);
   section_impacts_ = impacts;
-  motion::State<double> state;
-  state.x = section.x, state.v = section.v, state.periods = sections_;
-  if (const auto found = search_->at_section(state)) return settled(*found, section.impacts);
+  if (!search_->skips(section.x, section.v)) {
+    motion::State<double> state;
+    state.x = section.x, state.v = section.v, state.periods = sections_;
+    if (const auto found = search_->at_section(state)) return settled(*found, section.impacts);
+  }
   to_report_ = std::exchange(after_report_, search_->periods_from(sections_ + after_report_));
-  lane.expect_section(false, false, after_report_);
   return std::nullopt;
+}
+
+/// The number of sections to look at together: all of them are reported, whatever the search finds at one, and those
+/// that the lane passes in vain, once the motion is known, are few beside those before.
+template <Effects E>
+std::size_t SettleTask<E>::looked_at_together() const {
+  const std::int64_t next = sections_ + to_report_, most = std::min<std::int64_t>(most_together, sections_ / 4);
+  std::int64_t n = 1;
+  if (after_report_ == 1)
+    while (n < most && !search_->may_sample(next + n)) ++n;
+  return static_cast<std::size_t>(n);
 }
 
 template <Effects E>

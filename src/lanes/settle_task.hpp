@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "lanes/observe_task.hpp"
@@ -21,8 +22,13 @@ class SettleTask {
 
   /// The point if its observed time is known at the start, as for a transient; else nothing, and the lane is loaded.
   [[nodiscard]] std::optional<SettledPoint<E>> begin(LaneView& lane);
-  /// The point if its observed time is known at the stroboscopic section that the lane has passed, or if it has failed.
-  [[nodiscard]] std::optional<SettledPoint<E>> pass_section(LaneView& lane);
+  /// Keeps the stroboscopic section that the lane has passed; whether it is time to look at those that are kept.
+  [[nodiscard]] bool pass_section(const LaneView& lane) {
+    unseen_[passed_++] = lane.report();
+    return passed_ >= together_;
+  }
+  /// Looks at the sections that are kept: the point if its observed time is known at one, or if it has failed.
+  [[nodiscard]] std::optional<SettledPoint<E>> look(LaneView& lane);
   /// The point if it can't be run on, `lane` being where it is now.
   [[nodiscard]] SettledPoint<E> failed(stepping::Outcome outcome, const LaneView& lane) const;
 
@@ -41,7 +47,14 @@ class SettleTask {
   [[nodiscard]] ScalarLoop<E>& loop() { return fallback_.loop(); }
   [[nodiscard]] const ScalarLoop<E>& loop() const { return fallback_.loop(); }
   [[nodiscard]] SettledPoint<E> settled(const steady::ObservedTime& observed, double impacts) const;
+  [[nodiscard]] std::optional<SettledPoint<E>> look_at(const LaneSection& section);
+  [[nodiscard]] std::size_t looked_at_together() const;
 
+  static constexpr std::size_t most_together = 8;
+
+  // The search takes as long as a forcing period in lanes, much of it until its memory is at hand.
+  std::array<LaneReport, most_together> unseen_;  ///< sections that it hasn't seen yet
+  std::size_t passed_ = 0, together_ = 1;         ///< how many they are, and how many it is to see together
   point::WorkItem item_;
   ScalarFallback<E> fallback_;
   /// Logarithm of the factor by which an impact shrinks areas, at the stop that shrinks them less; 0 with soft stops,

@@ -50,12 +50,10 @@ class StepBlock {
   [[gnu::always_inline]] inline void run() {
     if (!any(active_)) return;
     for (int contacts = 1;; ++contacts) {
-      oscillators_.put(lanes_.section_itinerary, itinerary_);
-      oscillators_.put(lanes_.section_impacts, row(lanes_.impacts));
       unproved_ = ending_ = none_;
       step();
       if (any(unproved_)) contact();
-      if (contacts >= lanes_.most_contacts || any(arrived_ | to_scalar_)) break;
+      if (contacts >= lanes_.most_contacts || any(to_scalar_) || 2 * count(arrived_) >= count(active_)) break;
     }
     if (any(arrived_)) sections(E.soft ? arrived_ - reported_ : arrived_);
     store();
@@ -75,6 +73,7 @@ class StepBlock {
   [[gnu::always_inline]] inline void step() {
     const V length = row(lanes_.step);
     Mask stepping = active_;
+    if constexpr (observes) stepping = stepping - (arrived_ & (row(lanes_.ends_here) > V(0.0)));
     for (int steps = 1;; ++steps) {
       lanes_.proved += static_cast<double>(V::size);
       LaneMotion<V> next = oscillators_.step(here_);
@@ -243,6 +242,8 @@ class StepBlock {
     left_ = select(arrives, left_ + row(lanes_.to_next), left_);
     const V excess = select(arrives, row(lanes_.excess), V(0.0));
     phase = {neg_mul_add(excess, phase.sine, phase.sine), neg_mul_add(excess, phase.cosine, phase.cosine)};
+    put_of(arrives, lanes_.section_itinerary, itinerary_);
+    put_of(arrives, lanes_.section_impacts, row(lanes_.impacts));
     itinerary_ = select(arrives, V(0.0), itinerary_);
     if constexpr (E.soft) {
       put_of(arrives, lanes_.cushioned.section_log_area, log_area_);

@@ -86,16 +86,30 @@ class ForcedSearch {
     keep(passage), section_ += periods;
     if ((periods > 1) != samples_) samples_ = periods > 1, closing_in_ = 0, repeat_.restart();
   }
+  /// Lanes: takes a section if nothing can be found there: stops were met since the one before, no repeat is looked for
+  /// or confirmed, nor is it time for Newton's method. False: it is for `at_section`.
+  [[nodiscard]] bool skips(double x, double v) {
+    if constexpr (E.soft || E.stiffness) return false;
+    const Passage& passage = passages_[index(1)];
+    if (samples_ || passage.itinerary == 0 || closing_in_ > 0 || repeat_.looks_next()) return false;
+    if (section_ == time_.max_periods || pays()) return false;
+    note_cut(x, v);
+    const auto [at_x, at_v, z, w] = beyond_contact_({x, v});
+    repeat_.pass(at_x, at_v, passage.log_area + log_area_of_damping_);
+    return true;
+  }
   /// Lanes: whether a section has been within rounding of an impact. Lanes don't tell on which side of it they are.
   [[nodiscard]] bool is_cut() const { return is_cut_; }
   /// Lanes: forcing periods from a section ahead to the next one to look at. Motion that hasn't settled for long is
   /// sampled, until it comes back to a sample, but for some time before each attempt by Newton's method.
   [[nodiscard]] std::int64_t periods_from(std::int64_t section) const {
+    return section >= look_until_ && may_sample(section) ? between_samples : 1;
+  }
+  /// Lanes: whether sections after this one may be left out, if no motion seems to have come back then.
+  [[nodiscard]] bool may_sample(std::int64_t section) const {
     const std::int64_t attempt = std::min<std::int64_t>(
         static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(section) + 1)), time_.max_periods - 1);
-    const bool samples =
-        section >= std::max(first_sample, look_until_) && section + between_samples + looked_at <= attempt;
-    return samples ? between_samples : 1;
+    return section >= first_sample && section + between_samples + looked_at <= attempt;
   }
 
   [[nodiscard]] ObservedTime failure(stepping::Outcome outcome, const motion::State<double>& state) const {
@@ -132,7 +146,7 @@ class ForcedSearch {
   /// The forcing periods after which the motion repeats, 0 while it doesn't. In lanes the motion goes on until the
   /// states at the sections are as close as rounding allows, since no Newton step brings them there.
   [[nodiscard]] std::size_t repeats(const motion::State<double>& state) {
-    is_cut_ = is_cut_ || (in_lanes_ && section_ > 0 && beyond_contact_.is_beside(state.x, state.v));
+    if (in_lanes_ && section_ > 0) note_cut(state.x, state.v);
     if (samples_) {
       if (repeat_.sample(state.x, state.v)) look_until_ = section_ + looked_at;
       return 0;
@@ -150,6 +164,8 @@ class ForcedSearch {
     const bool close = distance <= 8 * epsilon<double>() || as_close_as_it_gets || section_ == time_.max_periods;
     return close ? closing_in_ : 0;
   }
+
+  void note_cut(double x, double v) { is_cut_ = is_cut_ || beyond_contact_.is_beside(x, v); }
 
   [[nodiscard]] ObservedTime repetition(std::size_t n) const {
     return repeated(recent(repeat_.first_of_last(n, begins_before_)), n, simulated(), section_, rests_);

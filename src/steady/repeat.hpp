@@ -76,6 +76,14 @@ class BasicRepeatFinder {
     return 0;
   }
 
+  /// Whether `add` looks for a repeat at the next section, or has one to confirm.
+  [[nodiscard]] bool looks_next() const { return candidate_ > 0 || waited_ + 1 >= looks_every_; }
+  /// Takes the next section's state, at which it doesn't.
+  void pass(double x, double v, double log_area) requires(others == 1) {
+    ++waited_;
+    keep(x, Others{v}, log_area, {});
+  }
+
   /// Takes a later section's state, sections having been left out before it; returns whether it is that of one of the
   /// last `longest` states taken.
   [[nodiscard]] bool sample(double x, double v) requires(others == 1) {
@@ -93,10 +101,7 @@ class BasicRepeatFinder {
   /// other; 0 for none.
   [[nodiscard]] std::size_t next_within(double distance, std::size_t n) const {
     const std::size_t now = size_ - 1, last = std::min(longest, now);
-    const double x = x_[now], limit = distance * size(now, last, 0);
-    std::int64_t near = 0;  // as wide as double, and without branches, so that compilers use vectors
-    for (std::size_t i = now - last; i + n <= now; ++i) near = std::abs(x - x_[i]) <= limit ? std::int64_t{1} : near;
-    if (near == 0) return 0;
+    if (n == 1 && !comes_near(now, last, distance)) return 0;  // a first one is rare
     while (n <= last && !repeats(now, n, distance)) ++n;
     return n <= last ? n : 0;
   }
@@ -138,6 +143,14 @@ class BasicRepeatFinder {
     std::copy(x_.end() - kept, x_.end(), x_.begin());
     std::copy(others_.end() - kept, others_.end(), others_.begin());
     size_ = static_cast<std::size_t>(kept);
+  }
+
+  /// Whether one of the n displacements before that at `now` is within `distance` of it.
+  [[nodiscard]] bool comes_near(std::size_t now, std::size_t n, double distance) const {
+    const double x = x_[now], limit = distance * size(now, n, 0);
+    std::int64_t near = 0;  // as wide as double, and without branches, so that compilers use vectors
+    for (std::size_t i = now - n; i < now; ++i) near = std::abs(x - x_[i]) <= limit ? std::int64_t{1} : near;
+    return near != 0;
   }
 
   /// Whether the states at `now` and n sections before are the same, to a tolerance.
