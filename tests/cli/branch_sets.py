@@ -147,14 +147,16 @@ class Sets:
     def is_reached(output, number, other, key, at):
         """Whether a branch that meets another one is followed from there: motion that comes to one that repeats sooner,
         or is symmetric, at a graze or a change of halts isn't. There its repetitions may each have the change or not,
-        so that motions of any number of them begin. Motion that has no speed left at any impact has the period 1.
+        so that motions of any number of them begin. Where no impact has any speed left, motion without impacts touches
+        a stop, and leads to and from motion of the force's period alone.
         """
         with h5py.File(output) as data:
             speed = data["special_impact_speed"][np.argmin(np.abs(data["special_" + key][()] - at))]
             first = [np.flatnonzero(data["branch"][()] == n)[0] for n in (number, other)]
-            periods, symmetric = data["period_ratio"][()][first], data["symmetric"][()][first]
-        longest = periods[0] if speed > 1e-9 else 1
-        return periods[1] <= longest and not (symmetric[0] == 1 and symmetric[1] == 0)
+            periods, symmetric, words = (data[name][()][first] for name in ("period_ratio", "symmetric", "word"))
+        if speed <= 1e-9 and not (b"-" in words and periods[1] == 1):
+            return False
+        return periods[1] <= periods[0] and not (symmetric[0] == 1 and symmetric[1] == 0)
 
     def same(self, relation, i, again, specials, met, text):
         """All special points of these branches are in another set."""
