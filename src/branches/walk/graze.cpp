@@ -22,25 +22,27 @@ std::optional<ExactGraze> solved(const Equations& equations, const FollowedScene
   return at;
 }
 
-/// Several grazes of soft stops at once as the one of a motion that repeats sooner, or is symmetric.
+/// Several grazes at once as the one of a motion that repeats sooner, or is symmetric, or touches both stops.
 Graze once_of(Graze graze, double slow, bool symmetric_scene) {
+  const EventKind grazes = graze.orbit.impacts[graze.impact].event;
   if (graze.condition.kind != Condition::Kind::graze ||
-      graze.orbit.impacts[graze.impact].event != EventKind::separation)
+      (grazes != EventKind::separation && grazes != EventKind::impact))
     return graze;
   for (std::size_t i = graze.orbit.size(); i-- > 0;) {
     const std::size_t next = (i + 1) % graze.orbit.size();
-    if (i == graze.impact || graze.orbit.impacts[i].event != EventKind::touch || next == graze.impact) continue;
+    const EventKind event = graze.orbit.impacts[i].event;
+    const bool is_contact = event == EventKind::touch && next != graze.impact;
+    if (i == graze.impact || !(is_contact || event == EventKind::impact)) continue;
     if (std::abs(graze.orbit.impacts[i].before) > slow) continue;
-    for (const std::size_t each : {std::max(i, next), std::min(i, next)}) {
+    for (const std::size_t each : is_contact ? std::vector{std::max(i, next), std::min(i, next)} : std::vector{i}) {
       graze.orbit.impacts.erase(graze.orbit.impacts.begin() + static_cast<std::ptrdiff_t>(each));
       graze.impact -= each < graze.impact;
     }
   }
   graze.orbit.impacts[graze.impact].before = 0;
   graze.orbit = graze.orbit.once_with_graze(graze.impact, symmetric_scene);
-  const auto at = std::ranges::find_if(graze.orbit.impacts, [](const OrbitImpact& impact) {
-    return impact.event == EventKind::separation && impact.before == 0;
-  });
+  const auto at = std::ranges::find_if(
+      graze.orbit.impacts, [&](const OrbitImpact& impact) { return impact.event == grazes && impact.before == 0; });
   graze.impact = static_cast<std::size_t>(at - graze.orbit.impacts.begin());
   graze.condition.impact = graze.impact;
   return graze;
@@ -63,7 +65,7 @@ std::optional<ExactGraze> exact_graze(const Equations& equations, const Followed
                                       bool symmetric_scene, double within, double tolerance) {
   const auto exact = solved(equations, near, graze, within, tolerance);
   if (exact) graze.orbit = exact->orbit;
-  if (!graze.orbit.meets_soft_stop()) return exact;
+  if (exact && !graze.orbit.meets_soft_stop()) return exact;
   const Graze once = once_of(graze, slow, symmetric_scene);
   if (exact && once.orbit.size() == graze.orbit.size()) return exact;
   auto joined = solved(equations, near, once, within, tolerance);

@@ -4,6 +4,8 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 
+#include "branches/walk/resonance.hpp"
+
 namespace clatter::branches {
 
 std::optional<CurvePoint> Walk::after(double s) const {
@@ -23,7 +25,7 @@ std::optional<CurvePoint> Walk::next() {
     const std::optional<CurvePoint> point = after(step_);
     if (!point) continue;
     const double cosine = product(point->tangent, here_.tangent);
-    if (!(cosine > least_cosine)) continue;
+    if (!(cosine > least_cosine) || may_resonate_between(equations_, here_.at, point->at)) continue;
     if (cosine > 0.998) step_ = std::min(1.6 * step_, limits_.largest_step);
     return point;
   }
