@@ -122,7 +122,7 @@ void tell_sticks_once(std::vector<OrbitImpact>& events) {
   const auto goes_on = [](const OrbitImpact& before, const OrbitImpact& stick) {
     return before.event == EventKind::stick && stick.event == EventKind::stick && stick.place == before.place;
   };
-  events.erase(std::ranges::unique(events, goes_on).begin(), events.end());
+  events.erase(std::unique(events.begin(), events.end(), goes_on), events.end());
   if (events.size() > 1 && events.front().event == EventKind::stick && events.front().phase == 0)
     events.erase(events.begin());
 }
