@@ -271,8 +271,10 @@ class Follower {
     at.orbit = with;
     const auto [special, is_new] = record_.note(SpecialKind::graze, at, touch.graze().condition);
     record_.end(last, "graze");
-    if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
     const int heading = touch.last_good.tangent.back() < 0 ? -1 : 1;
+    const bool may_gain = !touch.turns && !touch.appears && !touch.halts && settings_.follows(Birth::graze);
+    if (!is_new && may_gain) wait_for_sooner(waiting_, record_, at, touch.impact, symmetric_, special, generation_);
+    if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
     if (touch.halts && jumps_to_stick(exact->scene, without, touch.impact)) return;
     if (touch.turns)
       waiting_.push_back({at.scene, turned(with, touch.impact), {}, special, generation_});
@@ -280,7 +282,6 @@ class Follower {
       waiting_.push_back(with_contact({at.scene, with, {}, special, generation_}, touch.impact, heading));
     else
       wait_without(at.scene, without, special, heading);
-    const bool may_gain = !touch.turns && !touch.appears && !touch.halts && settings_.follows(Birth::graze);
     if (auto each = may_gain ? with_each(at, touch.impact, symmetric_, special, generation_) : std::nullopt)
       waiting_.push_back(*std::move(each));
   }

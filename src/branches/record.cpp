@@ -111,6 +111,17 @@ bool Record::grazes_at(std::size_t special) const {
   });
 }
 
+bool Record::is_met_by(std::size_t special, const Orbit& orbit) const {
+  const std::vector<std::size_t>& meeting = found_.special[special].branches;
+  const std::string word = orbit.word(), image = orbit.mirror_image().word();
+  return std::ranges::any_of(found_.points, [&](const BranchPoint& point) {
+    const bool meets = std::ranges::find(meeting, point.branch) != meeting.end();
+    if (!meets || point.orbit.half_turns != orbit.half_turns) return false;
+    const std::string its = point.orbit.word();
+    return its == word || its == image;
+  });
+}
+
 void Record::meet(std::size_t special, std::size_t branch) {
   std::vector<std::size_t>& meeting = found_.special[special].branches;
   if (std::ranges::find(meeting, branch) == meeting.end()) meeting.push_back(branch);

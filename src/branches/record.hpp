@@ -37,6 +37,8 @@ class Record {
   /// Whether a special point can't be told from a graze of its branch: near a rigid stop a multiplier may be -1 within
   /// rounding of it.
   [[nodiscard]] bool grazes_at(std::size_t special) const;
+  /// Whether a branch of motion like this, or its mirror image, belongs to a special point.
+  [[nodiscard]] bool is_met_by(std::size_t special, const Orbit& orbit) const;
   /// A birth at a special point isn't followed from there.
   void leave_out(std::size_t special) { found_.special[special].left_out = true; }
   /// A branch belongs to a special point, too.

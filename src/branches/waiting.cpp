@@ -74,6 +74,21 @@ std::optional<Waiting> with_each(const BranchPoint& at, std::size_t graze, bool 
   return Waiting{at.scene, once, {}, special, generation};
 }
 
+void wait_for_sooner(std::deque<Waiting>& waiting, const Record& record, const BranchPoint& at, std::size_t graze,
+                     bool symmetric_scene, std::size_t special, std::int64_t generation) {
+  if (at.orbit.impacts[graze].event != EventKind::impact) return;
+  const auto add = [&](const std::optional<Waiting>& one) {
+    if (!one || one->orbit.size() == 0 || one->orbit.half_turns == at.orbit.half_turns) return;
+    const auto is_it = [&](const Waiting& other) {
+      return other.special == special && other.orbit.half_turns == one->orbit.half_turns &&
+             events_of(other) == events_of(*one);
+    };
+    if (!record.is_met_by(special, one->orbit) && std::ranges::none_of(waiting, is_it)) waiting.push_back(*one);
+  };
+  add(Waiting{at.scene, at.orbit.without(graze).half_if_same(1e-6, symmetric_scene), {}, special, generation});
+  add(with_each(at, graze, symmetric_scene, special, generation));
+}
+
 std::optional<CurvePoint> point_near(const OrbitEquations& equations, const Vector& guess, double tolerance) {
   Vector axis(equations.unknowns(), 0.0);
   axis.back() = 1;

@@ -45,6 +45,11 @@ void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Or
 [[nodiscard]] std::optional<Waiting> with_each(const BranchPoint& at, std::size_t graze, bool symmetric_scene,
                                                std::size_t special, std::int64_t generation);
 
+/// Motion over several periods that comes to a graze which is known already may do so with several impacts at once:
+/// then motion that repeats sooner, without them or with all of them, begins there, too, unless it is known.
+void wait_for_sooner(std::deque<Waiting>& waiting, const Record& record, const BranchPoint& at, std::size_t graze,
+                     bool symmetric_scene, std::size_t special, std::int64_t generation);
+
 /// The point of a branch at the parameter of a guess, with its tangent towards larger values of that.
 [[nodiscard]] std::optional<CurvePoint> point_near(const OrbitEquations& equations, const Vector& guess,
                                                    double tolerance);

@@ -114,7 +114,8 @@ class Sets:
             met = {number}
             for kind, at, numbers in specials:
                 if number in numbers:
-                    met |= {n for n in numbers if kind in BORN or self.is_reached(output, number, n, key, at)}
+                    reached = numbers if kind in BORN else self.reached(output, number, numbers, key, at)
+                    met |= set(reached)
             self.same(f"begun again from branch {number}", i, self.follow(text, key, words=words), specials, met, text)
         return found
 
@@ -144,19 +145,29 @@ class Sets:
         return not is_beside and np.hypot(*parts).max() <= STRETCHED
 
     @staticmethod
-    def is_reached(output, number, other, key, at):
-        """Whether a branch that meets another one is followed from there: motion that comes to one that repeats sooner,
-        or is symmetric, at a graze or a change of halts isn't. There its repetitions may each have the change or not,
-        so that motions of any number of them begin. Where no impact has any speed left, motion without impacts touches
-        a stop, and leads to and from motion of the force's period alone.
+    def reached(output, number, numbers, key, at):
+        """Which branches are followed from the special point where they meet one: motion that comes to one that repeats
+        sooner, or is symmetric, at a graze or a change of halts isn't. There its repetitions may each have the change
+        or not, so that motions of any number of them begin, more than two branches, and only that of the least period
+        is followed. Where no impact has any speed left, motion without impacts touches a stop, and leads to and from
+        motion of the force's period alone.
         """
         with h5py.File(output) as data:
             speed = data["special_impact_speed"][np.argmin(np.abs(data["special_" + key][()] - at))]
-            first = [np.flatnonzero(data["branch"][()] == n)[0] for n in (number, other)]
-            periods, symmetric, words = (data[name][()][first] for name in ("period_ratio", "symmetric", "word"))
-        if speed <= 1e-9 and not (b"-" in words and periods[1] == 1):
-            return False
-        return periods[1] <= periods[0] and not (symmetric[0] == 1 and symmetric[1] == 0)
+            first = {n: np.flatnonzero(data["branch"][()] == n)[0] for n in numbers}
+            period, symmetric, word = (
+                {n: data[name][point] for n, point in first.items()} for name in ("period_ratio", "symmetric", "word")
+            )
+        least = min(period.values())
+
+        def is_reached(other):
+            if speed <= 1e-9 and not (b"-" in (word[number], word[other]) and period[other] == 1):
+                return False
+            if len(numbers) > 2 and not period[other] == least < period[number]:
+                return False
+            return period[other] <= period[number] and not (symmetric[number] == 1 and symmetric[other] == 0)
+
+        return [other for other in numbers if is_reached(other)]
 
     def same(self, relation, i, again, specials, met, text):
         """All special points of these branches are in another set."""
