@@ -237,7 +237,7 @@ class Follower {
     return true;
   }
 
-  /// The branch ends within a step, at a graze; or shorter steps go on, as Newton's method doesn't come to it by this.
+  /// The branch ends within a step, at a graze. If Newton's method doesn't find that from here, shorter steps go on.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step,
                     const std::optional<std::size_t>& from) {
     std::optional<Narrowed> between = narrowed(equations, walk, step);

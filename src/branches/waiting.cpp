@@ -89,27 +89,33 @@ void wait_for_sooner(std::deque<Waiting>& waiting, const Record& record, const B
   add(with_each(at, graze, symmetric_scene, special, generation));
 }
 
-std::optional<CurvePoint> point_near(const OrbitEquations& equations, const Vector& guess, double tolerance) {
+namespace {
+
+Vector along_parameter(const OrbitEquations& equations) {
   Vector axis(equations.unknowns(), 0.0);
   axis.back() = 1;
-  const auto at = corrected(equations, guess, axis, tolerance);
-  const auto along = at ? tangent(equations, *at, axis) : std::nullopt;
+  return axis;
+}
+
+/// The point of a branch in the plane normal to `direction` through a guess, with its tangent in that direction.
+std::optional<CurvePoint> point_beside(const OrbitEquations& equations, const Vector& guess, const Vector& direction,
+                                       double tolerance) {
+  const auto at = corrected(equations, guess, direction, tolerance);
+  const auto along = at ? tangent(equations, *at, direction) : std::nullopt;
   return along ? std::optional(CurvePoint{*at, *along, 0.0}) : std::nullopt;
 }
 
-namespace {
-
-/// The point of a branch that is nearest to `guess`, for a branch that runs across the parameter there.
+/// The point that is nearest to a guess, of a branch that runs across the parameter there.
 std::optional<CurvePoint> nearest_point(const OrbitEquations& equations, const Vector& guess, double tolerance) {
-  Vector axis(equations.unknowns(), 0.0);
-  axis.back() = 1;
-  auto across = tangent(equations, guess, axis);
-  const auto at = across ? corrected(equations, guess, *across, tolerance) : std::nullopt;
-  auto along = at ? tangent(equations, *at, *across) : std::nullopt;
-  return along ? std::optional(CurvePoint{*at, *along, 0.0}) : std::nullopt;
+  const auto across = tangent(equations, guess, along_parameter(equations));
+  return across ? point_beside(equations, guess, *across, tolerance) : std::nullopt;
 }
 
 }  // namespace
+
+std::optional<CurvePoint> point_near(const OrbitEquations& equations, const Vector& guess, double tolerance) {
+  return point_beside(equations, guess, along_parameter(equations), tolerance);
+}
 
 CurvePoint start_near(const OrbitEquations& equations, const Vector& guess, double tolerance) {
   auto start = point_near(equations, guess, tolerance);

@@ -34,7 +34,7 @@ struct Waiting {
 /// A branch that came to its end in a special point needn't begin there any more, nor does its mirror image.
 void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Orbit& orbit);
 
-/// A branch that begins with the impact that grazes, or with a contact with a soft stop there. `came` is its own.
+/// A branch that begins with the impact that grazes, or with a contact with a soft stop there.
 [[nodiscard]] Waiting with_contact(Waiting branch, std::size_t graze, int came = 0);
 
 /// A branch that is born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
