@@ -4,16 +4,14 @@ type are the same in files of all kinds, and a component is one that there is.
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
-import csv
-import io
 import json
 import shlex
 import unittest
 
-import h5py
 import numpy as np
 
-from command_line import SOURCE, CommandLine
+from command_line import SOURCE
+from exported_files import ExportedFiles
 
 SWEEP = """[scene]
 h = 0.1
@@ -44,21 +42,7 @@ attractor = true
 BRANCH = (SOURCE / "configs" / "branch.toml").read_text(encoding="utf-8")
 
 
-class Files(CommandLine):
-    def made(self, text, name="a.h5", command="run"):
-        self.write("a.toml", text)
-        done = self.clatter(command, "a.toml", "-q", "-o", name)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        return h5py.File(self.directory / name)
-
-    def table(self, *words):
-        done = self.clatter("export", *words)
-        self.assertEqual((done.returncode, done.stderr), (0, ""), words)
-        lines = [line for line in done.stdout.splitlines() if not line.startswith("#")]
-        return list(csv.DictReader(io.StringIO("\n".join(lines))))
-
-
-class Conditions(Files):
+class Conditions(ExportedFiles):
     def refused(self, condition, words):
         """By all commands, in the same words."""
         for command in ("export", "info", "certify"):
@@ -179,7 +163,7 @@ class Conditions(Files):
                 self.assert_refused(2, words, "info", name, *option)
 
 
-class Names(Files):
+class Names(ExportedFiles):
     """One name for what files name by what has it; the names in the files are understood as before."""
 
     def test_a_word_is_a_word_in_files_of_all_kinds(self):

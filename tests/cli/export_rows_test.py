@@ -4,14 +4,13 @@ file as h5py reads it.
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
-import csv
-import io
 import unittest
 
 import h5py
 import numpy as np
 
-from command_line import SOURCE, CommandLine
+from command_line import SOURCE
+from exported_files import ExportedFiles
 
 SWEEP = """[scene]
 h = 0.1
@@ -42,29 +41,17 @@ attractor = true
 """
 
 
-class Rows(CommandLine):
-    def made(self, text, command="run"):
-        self.write("a.toml", text)
-        done = self.clatter(command, "a.toml", "-q", "-o", "a.h5")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        return h5py.File(self.directory / "a.h5")
-
-    def table(self, *words):
-        done = self.clatter("export", "a.h5", *words)
-        self.assertEqual((done.returncode, done.stderr), (0, ""), words)
-        lines = [line for line in done.stdout.splitlines() if not line.startswith("#")]
-        return list(csv.DictReader(io.StringIO("\n".join(lines))))
-
+class Rows(ExportedFiles):
     def test_each_sample_has_a_row_with_the_axes_of_its_point(self):
         with self.made(SWEEP) as file:
-            rows = self.table("--samples")
+            rows = self.table("a.h5", "--samples")
             self.assertEqual(list(rows[0]), ["nu", "xs", "tau", "x", "v"])
             self.assertEqual(len(rows), 9 * 2 * 5)
             for name in ("tau", "x", "v"):
                 np.testing.assert_array_equal([float(row[name]) for row in rows], file[name][()].ravel())
             np.testing.assert_array_equal([float(row["nu"]) for row in rows], np.repeat(file["nu"][()], 10))
             np.testing.assert_array_equal([float(row["xs"]) for row in rows], np.tile(np.repeat(file["xs"][()], 5), 9))
-            one = self.table("--samples", "--where", "nu=1.0", "--where", "xs=-3", "--only", "x")
+            one = self.table("a.h5", "--samples", "--where", "nu=1.0", "--where", "xs=-3", "--only", "x")
             self.assertEqual([list(row) for row in one], [["nu", "xs", "x"]] * 5)
             np.testing.assert_array_equal([float(row["x"]) for row in one], file["x"][4, 1])
 
@@ -86,7 +73,7 @@ class Rows(CommandLine):
                 (["status=periodic", "xs=-3"], (status == 0) & (xs == -3)),
             ):
                 options = [word for condition in words for word in ("--where", condition)]
-                rows = self.table("--only", "x_max", *options)
+                rows = self.table("a.h5", "--only", "x_max", *options)
                 found = {(float(row["nu"]), float(row["xs"])) for row in rows}
                 self.assertEqual(found, set(zip(nu[expected], xs[expected])), words)
             chosen = self.clatter("certify", "a.h5", "--where", "nu=1.0", "--where", "impact_word=LU")
@@ -115,7 +102,7 @@ class Rows(CommandLine):
     def test_each_motion_has_a_row_at_each_value_of_the_parameters(self):
         with self.made(STARTS) as file:
             numbers, nu = file["attractor"][()], file["nu"][()]
-            rows = self.table("--motions")
+            rows = self.table("a.h5", "--motions")
             expected = [
                 (nu[i], m, *divmod(np.flatnonzero(numbers[i].ravel() == m)[0], 5))
                 for i in range(2)
@@ -130,7 +117,7 @@ class Rows(CommandLine):
                 self.assertEqual(int(row["attractor"]), motion)
                 self.assertEqual(row["motion_word"], file["motion_word"].asstr()[motion])
                 self.assertEqual(float(row["motion_share"]), file["motion_share"][list(nu).index(value), motion])
-            some = self.table("--motions", "--where", "nu=1.4", "--only", "motion_word,motion_share")
+            some = self.table("a.h5", "--motions", "--where", "nu=1.4", "--only", "motion_word,motion_share")
             self.assertEqual(list(some[0]), ["nu", "x0", "v0", "motion_share", "motion_word"])
             self.assertEqual(len(some), sum(value == 1.4 for value, *_ in expected))
 
@@ -148,16 +135,16 @@ class Rows(CommandLine):
             self.assertEqual((done.returncode, done.stdout), (74, ""), (name, done.stderr))
 
     def test_special_points_of_a_branch_are_chosen_by_its_number(self):
-        with self.made((SOURCE / "configs" / "branch.toml").read_text(encoding="utf-8"), "branch") as file:
+        with self.made((SOURCE / "configs" / "branch.toml").read_text(encoding="utf-8"), command="branch") as file:
             meeting = file["special_branch"][()]
             for number in (0, int(meeting.max())):
-                rows = self.table("--special", "--where", f"branch={number}")
+                rows = self.table("a.h5", "--special", "--where", f"branch={number}")
                 self.assertEqual(len(rows), np.sum(np.any(meeting == number, axis=1)))
                 self.assertLess(len(rows), len(meeting))
-            rows = self.table("--special", "--where", "kind=graze", "--where", "nu < 1")
+            rows = self.table("a.h5", "--special", "--where", "kind=graze", "--where", "nu < 1")
             kinds = file["special_kind"].asstr()[()]
             self.assertEqual(len(rows), np.sum((kinds == "graze") & (file["special_nu"][()] < 1)))
-            rows = self.table("--where", "branch=0", "--where", "stable=1")
+            rows = self.table("a.h5", "--where", "branch=0", "--where", "stable=1")
             self.assertEqual(len(rows), np.sum((file["branch"][()] == 0) & (file["stable"][()] == 1)))
 
 
