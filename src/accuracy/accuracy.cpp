@@ -52,7 +52,7 @@ std::vector<Event> events_of(const point::PointResult& result, bool is_in_housin
   std::vector<Event> events;
   for (const observables::LoggedImpact& impact : result.log)
     events.push_back({Event::Kind::impact, impact.side, impact.time, impact.before, 0.0, impact.after});
-  for (const motion::Rest& rest : result.rests) events.push_back(event_of(rest));
+  events.insert(events.end(), result.rests.begin(), result.rests.end());
   std::ranges::stable_sort(events, {}, &Event::time);  // an impact before the rest that it begins
   return is_in_housing ? with_slow_impacts_summed(events) : events;
 }

@@ -36,26 +36,15 @@ class RunObserver {
       harmonics_->arc(rounded, begin, length);
     });
   }
-  void rest(const motion::Rest& rest) {
-    events.push_back(event_of(rest));
-    if (harmonics_) extrema_.rest(rest), harmonics_->rest(rest);
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind == Kind::touch || event.kind == Kind::renewal)
+      events.push_back(as_impact(event));
+    else if (event.kind != Kind::separation && event.kind != Kind::press)
+      events.push_back(event.in_housing());
+    if (!harmonics_ || (event.kind == Kind::strike && !(event.time > 0))) return;
+    extrema_.event(event), harmonics_->event(event);
   }
-  void impact(const motion::Impact& impact) {
-    events.push_back(event_of(impact));
-    if (harmonics_) extrema_.impact(impact);
-  }
-
-  void strike(const motion::Strike& strike) {
-    events.push_back(event_of(strike.in_housing()));
-    if (harmonics_ && strike.time > 0) extrema_.strike(strike);
-  }
-  template <class A>
-  void hold(const A&, const motion::Rest& hold) {
-    events.push_back(event_of(hold));
-  }
-
-  void reversal(const motion::Reversal& reversal) { events.push_back(event_of(reversal)); }
-  void touch(const motion::Touch& touch) { events.push_back(as_impact(event_of(touch))); }
 
   void finish(RunRecord& record) {
     record.events = E.loose ? with_slow_impacts_summed(events) : std::move(events);

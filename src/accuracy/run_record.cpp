@@ -26,9 +26,7 @@ Event as_impact(Event contact) {
 std::vector<Event> with_rests_joined(const std::vector<Event>& events) {
   std::vector<Event> joined;
   for (const Event& event : events) {
-    const bool lasts =
-        event.kind == Event::Kind::rest || event.kind == Event::Kind::chatter || event.kind == Event::Kind::stick;
-    const bool goes_on = lasts && !joined.empty() && joined.back().kind == event.kind &&
+    const bool goes_on = event.lasts() && !joined.empty() && joined.back().kind == event.kind &&
                          joined.back().side == event.side &&
                          std::abs(event.time - joined.back().end()) <= same_time * (1 + std::abs(event.time));
     if (goes_on)

@@ -68,8 +68,8 @@ void add_contacts(const std::vector<Event>& events, double total, Round& round) 
     if (event.kind == Event::Kind::separation || event.kind == Event::Kind::renewal) continue;
     begins.push_back(event.time), ends.push_back(event.time + event.length);
     if (event.side == Side::none) continue;
-    round.contacts.push_back({event.time, event.velocity, event.side});
-    round.fastest = std::max(round.fastest, std::abs(event.velocity));
+    round.contacts.push_back({event.time, event.velocity(), event.side});
+    round.fastest = std::max(round.fastest, event.speed());
   }
   double longest = 0.0;
   for (std::size_t i = 0; i < ends.size(); ++i) {

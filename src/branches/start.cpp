@@ -314,7 +314,7 @@ std::optional<Orbit> event_run(const point::Problem& problem, std::size_t period
   const double nu = problem.oscillator.frequency;
   for (const motion::Event& event : recorder.events) {
     const bool rests = event.kind == EventKind::rest || event.kind == EventKind::chatter;
-    orbit.impacts.push_back({event.side, nu * event.time, event.velocity, nu * event.length,
+    orbit.impacts.push_back({event.side, nu * event.time, event.velocity(), nu * event.length,
                              rests ? EventKind::impact : event.kind,  // one without speed
                              halts(event.kind) ? event.place - middle : 0.0});
   }

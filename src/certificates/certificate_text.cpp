@@ -11,28 +11,6 @@ using Kind = motion::Event::Kind;
 
 const char* name_of(Side side) { return side == Side::upper ? "upper" : "lower"; }
 
-const char* name_of(Kind kind) {
-  switch (kind) {
-    case Kind::impact:
-      return "impact";
-    case Kind::rest:
-      return "rest";
-    case Kind::chatter:
-      return "chatter";
-    case Kind::touch:
-      return "touch";
-    case Kind::renewal:
-      return "renewal";
-    case Kind::separation:
-      return "separation";
-    case Kind::stick:
-      return "stick";
-    case Kind::reversal:
-      return "reversal";
-  }
-  return "";
-}
-
 /// JSON has no infinite numbers.
 Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(value > 0 ? "inf" : "-inf"); }
 Json json_of(const Claimed& claimed) { return Json::array({claimed.value, claimed.error}); }
@@ -73,7 +51,7 @@ Json json_of(const Scene& scene) {
 /// An event on a wall of a loose mass.
 Json in_housing(const ClaimedEvent& event) {
   const bool presses = event.kind == Kind::rest, lasts = presses || event.kind == Kind::chatter;
-  return {{"event", presses ? "press" : name_of(event.kind)},
+  return {{"event", presses ? "press" : motion::Event::word(event.kind)},
           {"stop", name_of(event.side)},
           {"time", json_of(event.time)},
           {lasts ? "until" : "w", json_of(event.then)}};
@@ -81,14 +59,14 @@ Json in_housing(const ClaimedEvent& event) {
 
 Json json_of(const ClaimedEvent& event) {
   if (event.side == Side::none) {
-    Json turn{{"event", name_of(event.kind)}, {"time", json_of(event.time)}};
+    Json turn{{"event", motion::Event::word(event.kind)}, {"time", json_of(event.time)}};
     if (event.kind == Kind::stick) turn["until"] = json_of(event.then);
     turn["x"] = json_of(event.place);
     return turn;
   }
   if (event.grazes) return {{"event", "graze"}, {"stop", name_of(event.side)}, {"time", json_of(event.time)}};
   const bool lasts = event.kind == Kind::rest || event.kind == Kind::chatter;
-  return {{"event", name_of(event.kind)},
+  return {{"event", motion::Event::word(event.kind)},
           {"stop", name_of(event.side)},
           {"time", json_of(event.time)},
           {lasts ? "until" : "v", json_of(event.then)}};

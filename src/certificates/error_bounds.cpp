@@ -68,15 +68,15 @@ double ErrorBounds::place_of(const RecordedEvent& event) const {
   if (event.side == Side::none) return event.place;
   const double position = event.side == Side::upper ? stops_.upper : stops_.lower;
   if (event.kind != Kind::separation && event.kind != Kind::renewal) return position;
-  return position - motion::soft_stop_at<double>(stops_, event.side).relaxation() * event.velocity;
+  return position - motion::soft_stop_at<double>(stops_, event.side).relaxation() * event.velocity();
 }
 /// The acceleration before an event, at which no soft stop pushes.
 double ErrorBounds::acceleration(const RecordedEvent& event) const {
   return oscillator_.forcing * std::sin(oscillator_.frequency * event.time + phase_) +
-         constant_force(oscillator_, place_of(event)) - 2 * oscillator_.damping * event.velocity -
-         (event.velocity > 0   ? friction_.kinetic
-          : event.velocity < 0 ? -friction_.kinetic
-                               : 0.0);
+         constant_force(oscillator_, place_of(event)) - 2 * oscillator_.damping * event.velocity() -
+         (event.velocity() > 0   ? friction_.kinetic
+          : event.velocity() < 0 ? -friction_.kinetic
+                                 : 0.0);
 }
 
 ClaimedEvent ErrorBounds::claimed(const RecordedEvent& event, const ClaimedEvent* before) const {
@@ -91,13 +91,13 @@ ClaimedEvent ErrorBounds::claimed(const RecordedEvent& event, const ClaimedEvent
 ClaimedEvent ErrorBounds::claimed_contact(const RecordedEvent& event, double since) const {
   const StateError error = error_after(event.derivative, event.rounding, size_ * since);
   const double a = acceleration(event);
-  double off = error.x, rate = std::abs(event.velocity);
+  double off = error.x, rate = std::abs(event.velocity());
   if (event.kind == Kind::separation || event.kind == Kind::renewal) {
     const double q = motion::soft_stop_at<double>(stops_, event.side).relaxation();
-    off += q * error.v, rate = std::abs(event.velocity + q * a);
+    off += q * error.v, rate = std::abs(event.velocity() + q * a);
   }
   const double late = off / rate + time_error(event.time);
-  return {event.kind, event.side, {begin_ + event.time, late}, {event.velocity, error.v + std::abs(a) * late}};
+  return {event.kind, event.side, {begin_ + event.time, late}, {event.velocity(), error.v + std::abs(a) * late}};
 }
 
 ClaimedEvent ErrorBounds::claimed_stay(const RecordedEvent& event, const ClaimedEvent* before) const {

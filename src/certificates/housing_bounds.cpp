@@ -117,7 +117,7 @@ ClaimedEvent HousingBounds::claimed_impact(const HousingEvent& event) const {
   const Sizes error = error_after(event.derivative, event.rounding);
   const double late = error[2] / event.speed() + time_error(event.time);
   const double force = std::abs(loose_.load - acceleration(event));
-  return {event.kind, event.side, {begin_ + event.time, late}, {event.velocity, error[3] + force * late}};
+  return {event.kind, event.side, {begin_ + event.time, late}, {event.before, error[3] + force * late}};
 }
 
 /// x'' of both masses as one reaches the acceleration of the loose one the later, the slower it changes (eq. 72); a

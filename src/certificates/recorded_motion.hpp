@@ -16,8 +16,6 @@ struct RecordedEvent : motion::Event {
   std::array<double, 2> rounding{};  ///< that of earlier flights as it has grown, in x and v, in its units
 
   [[nodiscard]] bool is_rest() const { return kind == Kind::rest; }
-  /// Whether it is a time on a stop or a stick, not an instant.
-  [[nodiscard]] bool lasts() const { return kind == Kind::rest || kind == Kind::chatter || kind == Kind::stick; }
 };
 
 /// The events of a record, in which each rest and each chatter is one event, however many sections cut it. A chatter

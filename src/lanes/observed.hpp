@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 #include "observables/extrema_observer.hpp"
 #include "observables/impacts_observer.hpp"
 #include "observables/velocity_jumps.hpp"
@@ -13,7 +13,7 @@ namespace clatter::lanes {
 struct Observed {
   observables::Extrema::Observer extrema{};
   observables::Impacts::Observer impacts{};
-  std::optional<motion::Impact> first{};  ///< impact
+  std::optional<motion::Event> first{};  ///< impact
   observables::VelocityJumps jumps;
 };
 

@@ -21,16 +21,14 @@ class LaneObserver {
     if constexpr (A::effects.stiffness)
       if (arc.constants().stop.side != Side::none) lane_.add_to_log_area(-2 * arc.constants().stop.damping * length);
   }
-  void touch(const motion::Touch& touch) { lane_.add_to_itinerary(touch.side); }
-  void rest(const motion::Rest& rest) {
-    rested_ = true;
-    if (rest.held) held_by_ = rest.side;
-  }
-  void impact(const motion::Impact& impact) {
-    lane_.add_to_itinerary(impact.side);
-    if (!observed_) return;
-    if (!observed_->first) observed_->first = impact;
-    observed_->extrema.impact(impact), observed_->impacts.impact(impact), observed_->jumps.impact(impact);
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.lasts()) rested_ = true, held_by_ = event.held ? event.side : held_by_;
+    const bool is_impact = event.kind == Kind::impact;
+    if (is_impact || event.kind == Kind::touch || event.kind == Kind::renewal) lane_.add_to_itinerary(event.side);
+    if (!is_impact || !observed_) return;
+    if (!observed_->first) observed_->first = event;
+    observed_->extrema.event(event), observed_->impacts.event(event), observed_->jumps.impact(event);
   }
 
   /// Adds it to what the lane has seen.

@@ -1,52 +1,79 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
-#include "motion/state.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::motion {
 
-/// An event of a motion, as it is recorded.
+/// An event of a motion, or a time for which something holds it, as observers are told of it and as it is recorded.
 struct Event {
   enum class Kind : std::uint8_t {
     impact,      ///< on a rigid stop
-    rest,        ///< on a rigid stop begins
-    chatter,     ///< its end is summed, or the force within rounding of 0 is waited for: `Rest` not held
+    rest,        ///< on a rigid stop
+    chatter,     ///< its summed end, or a part of that if a section cuts it; or a force within rounding of 0 is waited
+                 ///< for: too low to be told from rest
     touch,       ///< of a soft stop at its position, where contact begins
     renewal,     ///< of the contact with a soft stop, whose force rises from zero, beyond its position
     separation,  ///< from a soft stop, whose force falls to zero
-    stick,       ///< of a slip, away from rigid stops, begins: `Rest` without a side
-    reversal,    ///< of a slip, whose velocity passes 0
+    stick,       ///< away from rigid stops: friction alone holds the mass
+    reversal,    ///< of a slip: the velocity falls to 0 and changes its sign at once
+    strike,      ///< of a loose mass on a wall of its housing
+    press,       ///< a loose mass comes to rest on a wall; the rest of its chatter is lost at once
+    hold,        ///< a wall presses a loose mass, so that it moves with the main mass
   };
+  /// The word for a kind.
+  [[nodiscard]] static constexpr std::string_view word(Kind kind) {
+    constexpr std::array<std::string_view, 11> words{"impact", "rest",     "chatter", "touch", "renewal", "separation",
+                                                     "stick",  "reversal", "strike",  "press", "hold"};
+    return words[static_cast<std::size_t>(kind)];
+  }
+  /// The main mass at an event of a loose one: its displacement, and its velocities on both sides.
+  struct Main {
+    double place = 0.0, before = 0.0, after = 0.0;
+  };
+
   Kind kind = Kind::impact;
-  Side side = Side::none;
-  double time = 0.0;      ///< tau
-  double velocity = 0.0;  ///< before it; 0 at rest
-  double length = 0.0;    ///< of a rest, a stick or a chatter's end, tau
-  double after = 0.0;     ///< velocity after an impact
-  double place = 0.0;     ///< displacement of a stick or a reversal
+  Side side = Side::none;  ///< the stop, or the wall; none: friction alone holds or turns the mass
+  double time = 0.0;       ///< tau since observation began; of a time that lasts its beginning
+  double before = 0.0;     ///< velocity before it, of a loose mass z'; of a chatter at its beginning
+  double length = 0.0;     ///< of what lasts, tau
+  double after = 0.0;      ///< velocity after it, of a loose mass z'; of a chatter at its end
+  double place = 0.0;      ///< displacement, of a loose mass z; on a stop or a wall that of these
+  double turns = 0.0;      ///< of a contact: forcing periods since the section before it, 0 ... 1
+  bool held = true;        ///< of what lasts: at rest; false: a chatter, or a force within rounding of 0 is waited for
+  double a_before = 0.0, a_after = 0.0;  ///< of a reversal: the accelerations, between which friction makes it jump
+  Main main{};                           ///< of a strike and a press
 
   [[nodiscard]] double end() const { return time + length; }
-  [[nodiscard]] double speed() const { return std::abs(velocity); }
-};
+  [[nodiscard]] bool is_stick() const { return kind == Kind::stick; }
+  /// Whether it is a time, not an instant.
+  [[nodiscard]] bool lasts() const {
+    return kind == Kind::rest || kind == Kind::chatter || kind == Kind::stick || kind == Kind::hold;
+  }
+  /// Whether a contact begins or ends with it, with speed.
+  [[nodiscard]] bool is_contact() const { return !lasts() && kind != Kind::reversal && kind != Kind::press; }
+  /// With which the mass comes to it; 0 where it stays, in a chatter, too.
+  [[nodiscard]] double velocity() const { return lasts() ? 0.0 : before; }
+  [[nodiscard]] double speed() const { return std::abs(velocity()); }
 
-/// The events of which observers are told.
-[[nodiscard]] inline Event event_of(const Impact& impact) {
-  return {Event::Kind::impact, impact.side, impact.time, impact.before, 0.0, impact.after};
-}
-[[nodiscard]] inline Event event_of(const Rest& rest) {
-  if (rest.is_stick()) return {Event::Kind::stick, Side::none, rest.time, 0.0, rest.length, 0.0, rest.position};
-  return {rest.held ? Event::Kind::rest : Event::Kind::chatter, rest.side, rest.time, 0.0, rest.length};
-}
-[[nodiscard]] inline Event event_of(const Reversal& reversal) {
-  return {Event::Kind::reversal, Side::none, reversal.time, 0.0, 0.0, 0.0, reversal.position};
-}
-[[nodiscard]] inline Event event_of(const Touch& touch) {
-  return {touch.from_outside ? Event::Kind::touch : Event::Kind::renewal, touch.side, touch.time, touch.velocity};
-}
-[[nodiscard]] inline Event event_of(const Separation& separation) {
-  return {Event::Kind::separation, separation.side, separation.time, separation.velocity};
-}
+  /// An event of a loose mass as one of a mass between stops, which its walls are: a strike as an impact, a hold as a
+  /// rest. Others are as they are.
+  [[nodiscard]] Event in_housing() const {
+    Event same = *this;
+    if (kind == Kind::strike) same.kind = Kind::impact;
+    if (kind == Kind::hold) same.kind = Kind::rest;
+    return same;
+  }
+  /// A strike as the impact of the main mass that it is. Others are as they are.
+  [[nodiscard]] Event of_main() const {
+    if (kind != Kind::strike) return *this;
+    return {Kind::impact, side, time, main.before, 0.0, main.after, main.place, turns};
+  }
+};
 
 }  // namespace clatter::motion

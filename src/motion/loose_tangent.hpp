@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "motion/event.hpp"
 #include "motion/state.hpp"
 #include "motion/walls.hpp"
 
@@ -35,25 +36,9 @@ class LooseTangent {
     }
     rescale();
   }
-  void strike(const Strike& strike) {
-    const double w = strike.before;
-    if (w == 0) return;
-    const double force = force_ - k_ * strike.place, a = force - 2 * h_ * strike.v_before,
-                 a_after = force - 2 * h_ * strike.v_after, towards = loose_.load - a;
-    const double kick = -rule_.share() * rule_.law.jump(1.0), back = kick / rule_.ratio;  // of x' and -y' by z'
-    const Row z = combined(1, map_[2], -1, map_[0]), dw = combined(1, map_[3], -1, map_[1]);
-    add(map_[0], kick, z);
-    add(map_[1], kick, dw), add(map_[1], (a_after - a - kick * towards) / w, z);
-    add(map_[2], -back, z);
-    add(map_[3], -back, dw), add(map_[3], back * towards / w, z);
-    rescale();
-  }
-  /// Both masses keep their common centre and momentum.
-  void press(const Press&) {
-    const double share = rule_.share();
-    for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
-      map_[i] = map_[i + 2] = combined(1 - share, map_[i], share, map_[i + 2]);
-    has_pressed_ = true;
+  void event(const Event& event) {
+    if (event.kind == Event::Kind::strike) strike(event.before, event.main);
+    if (event.kind == Event::Kind::press) press();
   }
 
   /// Makes the map that from here on, between an arc and the event at its end, too.
@@ -74,6 +59,27 @@ class LooseTangent {
  private:
   using Row = std::array<double, 4>;
   static constexpr LooseJacobian identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+
+  /// An impact on a wall with z' = w.
+  void strike(double w, const Event::Main& main) {
+    if (w == 0) return;
+    const double force = force_ - k_ * main.place, a = force - 2 * h_ * main.before,
+                 a_after = force - 2 * h_ * main.after, towards = loose_.load - a;
+    const double kick = -rule_.share() * rule_.law.jump(1.0), back = kick / rule_.ratio;  // of x' and -y' by z'
+    const Row z = combined(1, map_[2], -1, map_[0]), dw = combined(1, map_[3], -1, map_[1]);
+    add(map_[0], kick, z);
+    add(map_[1], kick, dw), add(map_[1], (a_after - a - kick * towards) / w, z);
+    add(map_[2], -back, z);
+    add(map_[3], -back, dw), add(map_[3], back * towards / w, z);
+    rescale();
+  }
+  /// Both masses keep their common centre and momentum.
+  void press() {
+    const double share = rule_.share();
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
+      map_[i] = map_[i + 2] = combined(1 - share, map_[i], share, map_[i + 2]);
+    has_pressed_ = true;
+  }
 
   [[nodiscard]] static Row combined(double a, const Row& one, double b, const Row& other) {
     Row sum;

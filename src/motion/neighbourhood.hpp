@@ -7,6 +7,7 @@
 #include "motion/contact.hpp"
 #include "motion/contact_force.hpp"
 #include "motion/ellipse.hpp"
+#include "motion/event.hpp"
 #include "motion/field.hpp"
 
 namespace clatter::motion {
@@ -48,11 +49,11 @@ class Neighbourhood {
     force_ = acceleration(arc.constants().force(arc.phase_after(duration).sine));
     friction_ = acceleration(arc.constants().friction);
   }
-  void rest(const Rest&) { holds_ = false; }  // which impacts of a chatter are taken changes with the start
-  void impact(const Impact& impact) {
-    if (!holds_) return;
-    const Impact same = {now_, impact.side, impact.before / rate_, impact.after / rate_, impact.position, impact.turns};
-    holds_ = approached_ == same.side && now_ >= clear_from_ && rebound(same);
+  void event(const Event& event) {
+    if (event.lasts()) holds_ = false;  // which impacts of a chatter are taken changes with the start
+    if (event.kind == Event::Kind::impact && holds_)
+      holds_ = approached_ == event.side && now_ >= clear_from_ &&
+               rebound({event.side, event.before / rate_, event.after / rate_, event.place});
   }
 
   /// Whether the proof holds up to here; not while the mass is so near a stop that some of the motions may have met it.
@@ -71,6 +72,11 @@ class Neighbourhood {
   /// their impact there, else 0, and the bound of accelerations; those impacts are over within `waited`.
   struct Departure {
     double speed, pull, acceleration, waited;
+  };
+  /// An impact, with velocities in the unit of time.
+  struct Rebound {
+    Side side;
+    double before, after, place;
   };
   /// Begins to count time anew, at an event that all other instants lie before.
   void restart() { now_ = clear_from_ = 0; }
@@ -123,9 +129,9 @@ class Neighbourhood {
   }
 
   /// Takes the differences through an impact; false if they are not transversal there (eq. 29).
-  [[nodiscard]] bool rebound(const Impact& impact) {
+  [[nodiscard]] bool rebound(const Rebound& impact) {
     const Stop<double> stop = stop_at<double>(stops_, impact.side);
-    const double u = std::abs(impact.before), R = stop.law.R, force = force_ - field_.k * impact.position;
+    const double u = std::abs(impact.before), R = stop.law.R, force = force_ - field_.k * impact.place;
     const double a_before = force - 2 * field_.h * impact.before,
                  a_after = force - 2 * friction_ - 2 * field_.h * impact.after;
     const double a = std::max(std::abs(a_before), std::abs(a_after)),

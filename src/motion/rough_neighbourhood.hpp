@@ -29,27 +29,22 @@ class RoughNeighbourhood : public SoftNeighbourhood {
     keep_moving(arc, begin, now_ - begin);
     if (moving_from_ <= now_) least_bound_ = 0;
   }
-  void rest(const Rest&) { holds_ = false; }  // a stick forgets the speed, at an instant that changes with the start
-  void impact(const Impact& impact) {
-    if (all_move()) SoftNeighbourhood::impact(impact);
-  }
-  void touch(const Touch& touch) {
-    if (all_move()) SoftNeighbourhood::touch(touch);
-  }
-  void separate(const Separation& separation) {
-    if (all_move()) SoftNeighbourhood::separate(separation);
-  }
-  void reversal(const Reversal& reversal) {
-    if (!holds_) return;
-    const Reversal same{now_, reversal.position, acceleration(reversal.before), acceleration(reversal.after)};
-    holds_ = slows_ && approached_ == Side::none && now_ >= std::max(clear_from_, moving_from_) && turn(same);
-    slows_ = false;
+  /// A stick forgets the speed, at an instant that changes with the start, and ends the proof as a rest does.
+  void event(const Event& event) {
+    if (event.kind == Event::Kind::reversal) return reverse(event);
+    if (event.lasts() || all_move()) SoftNeighbourhood::event(event);
   }
 
   /// Whether the proof holds up to here; not while some of the motions may have turned back that others have not.
   [[nodiscard]] bool holds() const { return SoftNeighbourhood::holds() && !slows_ && moving_from_ <= now_; }
 
  private:
+  void reverse(const Event& reversal) {
+    if (!holds_) return;
+    holds_ = slows_ && approached_ == Side::none && now_ >= std::max(clear_from_, moving_from_) &&
+             turn(acceleration(reversal.a_before), acceleration(reversal.a_after));
+    slows_ = false;
+  }
   /// Whether no motion turns back about the time of another event, which is now.
   [[nodiscard]] bool all_move() {
     holds_ = holds_ && !slows_ && now_ >= moving_from_;
@@ -74,10 +69,11 @@ class RoughNeighbourhood : public SoftNeighbourhood {
     if (crossing.margin == 0) slows_ = true, slows_from_ = begin + from + rate_ * crossing.elapsed;
   }
 
-  /// Takes the differences through a reversal; false unless all motions turn back there, once, and at once.
-  [[nodiscard]] bool turn(const Reversal& reversal) {
-    const double before = std::abs(reversal.before), after = std::abs(reversal.after), least = std::min(before, after);
-    const double jump = std::abs(reversal.after - reversal.before), push = (before + after) / 2;
+  /// Takes the differences through a reversal, with these accelerations; false unless all motions turn back there,
+  /// once, and at once.
+  [[nodiscard]] bool turn(double a_before, double a_after) {
+    const double before = std::abs(a_before), after = std::abs(a_after), least = std::min(before, after);
+    const double jump = std::abs(a_after - a_before), push = (before + after) / 2;
     const double c = std::abs(field_.k) / field_.weight + 2 * field_.h;  // bounds a - a of the others, over the norm
     const double d = bound_, wait = 2 * d / before + clock_rounding();
     const LocalBounds near = field_.near(0, std::max(before, after), wait);
@@ -89,7 +85,7 @@ class RoughNeighbourhood : public SoftNeighbourhood {
     const double missed = (near.jerk * late / 2 + c * near.growth * d) * late;             // of v + a s = 0
     const double rest_v = jump * (missed / before + 2 * late * late * (2 * field_.h + std::abs(field_.k) * late)),
                  rest_x = jump * late * late;
-    const Jacobian<double> saltation{1, 0, 0, reversal.after / reversal.before};
+    const Jacobian<double> saltation{1, 0, 0, a_after / a_before};
     first_order_ = first_order_.mapped(saltation), remainder_ = remainder_.mapped(saltation);
     remainder_.add(Ellipse(2 * rest_x * rest_x, 0, 2 * rest_v * rest_v));
     return move_on(near.growth * (d + norm(field_.weight * rest_x, rest_v)), after, before, wait);

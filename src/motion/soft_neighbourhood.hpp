@@ -35,21 +35,13 @@ class SoftNeighbourhood : public Neighbourhood {
     holds_ = holds_ && (!leaving_ || stays_left());
     last_ = in_units(arc.at(duration)), bound_ = reach_;
   }
-  void impact(const Impact& impact) {
-    leaving_ = false;
-    Neighbourhood::impact(impact);
-  }
-  void touch(const Touch& touch) {
-    if (!holds_) return;
-    stop_ = soft_stop_at<double>(stops_, touch.side), leaving_ = false;
-    const Mode from = std::exchange(mode_, contact);
-    holds_ = from == (touch.from_outside ? outside : outrun) && approached_ == touch.side &&
-             cross(touch.velocity / rate_, from);
-  }
-  void separate(const Separation& separation) {
-    if (!holds_) return;
-    const Mode from = std::exchange(mode_, outrun);
-    holds_ = from == contact && approached_ == separation.side && cross(separation.velocity / rate_, from);
+  void event(const Event& event) {
+    using Kind = Event::Kind;
+    if (event.kind == Kind::touch) return pass(event, outside, contact);
+    if (event.kind == Kind::renewal) return pass(event, outrun, contact);
+    if (event.kind == Kind::separation) return pass(event, contact, outrun);
+    if (event.kind == Kind::impact) leaving_ = false;
+    Neighbourhood::event(event);
   }
 
   /// Whether the proof holds up to here; not while some of the motions may have had an event that others have not.
@@ -60,6 +52,13 @@ class SoftNeighbourhood : public Neighbourhood {
   enum Mode : std::uint8_t { unknown, outside, contact, outrun };
 
   void refuse() { holds_ = false; }
+
+  /// Takes the differences through an event of a soft stop, at which the mass changes from one mode to another.
+  void pass(const Event& event, Mode from, Mode to) {
+    if (!holds_) return;
+    if (to == contact) stop_ = soft_stop_at<double>(stops_, event.side), leaving_ = false;
+    holds_ = std::exchange(mode_, to) == from && approached_ == event.side && cross(event.before / rate_, from);
+  }
 
   /// The soft stop beyond whose position the mass is.
   [[nodiscard]] Side beyond(const Motion<double>& m) const {

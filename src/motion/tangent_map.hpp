@@ -6,6 +6,7 @@
 
 #include "motion/arc.hpp"
 #include "motion/contact_force.hpp"
+#include "motion/event.hpp"
 #include "motion/perturbation.hpp"
 
 namespace clatter::motion {
@@ -27,28 +28,14 @@ class TangentMap {
     friction_ = constants.friction;
     h_ = constants.h, k_ = constants.k, force_ = constants.force(arc.phase_after(Number(length)).sine);
   }
-  void rest(const Rest& rest) {
-    if (!rest.is_stick()) top_ = shear_ = bottom_ = 0;
-    if (rest.is_stick()) scale_velocity(Number(0));
-    sticks_ = rest.is_stick();
-  }
-  /// The acceleration jumps where the velocity is 0.
-  void reversal(const Reversal& reversal) { scale_velocity(Number(reversal.after) / Number(reversal.before)); }
-  void impact(const Impact& impact) {
-    const Number before(impact.before), after(impact.after);
-    const Number slope = stop_at<Number>(stops_, impact.side).law.derivative();
-    if (before == 0) return;  // it touches, and the velocity is not reversed
-    const Number force = force_ - k_ * impact.position;
-    const Number a_before = force - 2 * h_ * before, a_after = force - 2 * friction_ - 2 * h_ * after;
-    multiply({{slope, Number(0), (a_after - slope * a_before) / before, slope}, slope * slope});
-  }
-
-  /// The damper of a soft stop pushes from the touch on, so the acceleration jumps (eq. 53); where the mass leaves the
-  /// stop nothing does.
-  void touch(const Touch& touch) {
-    if (!touch.from_outside) return;
-    const Number slower = -2 * soft_stop_at<Number>(stops_, touch.side).damping;
-    multiply({{Number(1), Number(0), slower, Number(1)}, Number(1)});
+  void event(const Event& event) {
+    using Kind = Event::Kind;
+    if (event.kind == Kind::impact) rebound(event);
+    if (event.kind == Kind::touch) touch(event.side);
+    if (event.kind == Kind::reversal)  // the acceleration jumps where the velocity is 0
+      scale_velocity(Number(event.a_after) / Number(event.a_before));
+    if (event.kind == Kind::rest || event.kind == Kind::chatter) top_ = shear_ = bottom_ = 0, sticks_ = false;
+    if (event.kind == Kind::stick) scale_velocity(Number(0)), sticks_ = true;
   }
 
   /// Makes the map that of the motion from here on.
@@ -84,6 +71,20 @@ class TangentMap {
   }
 
  private:
+  void rebound(const Event& impact) {
+    const Number before(impact.before), after(impact.after);
+    const Number slope = stop_at<Number>(stops_, impact.side).law.derivative();
+    if (before == 0) return;  // it touches, and the velocity is not reversed
+    const Number force = force_ - k_ * impact.place;
+    const Number a_before = force - 2 * h_ * before, a_after = force - 2 * friction_ - 2 * h_ * after;
+    multiply({{slope, Number(0), (a_after - slope * a_before) / before, slope}, slope * slope});
+  }
+  /// The damper of a soft stop pushes from the touch on, so the acceleration jumps (eq. 53); where the mass leaves the
+  /// stop nothing does.
+  void touch(Side side) {
+    const Number slower = -2 * soft_stop_at<Number>(stops_, side).damping;
+    multiply({{Number(1), Number(0), slower, Number(1)}, Number(1)});
+  }
   void scale_velocity(const Number& factor) { multiply({{Number(1), Number(0), Number(0), factor}, factor}); }
   /// A stick ends the later the further the spring has to be overcome: by k dx/(f nu cos theta) (eq. 65).
   template <class A>

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 #include "observables/observable.hpp"
 
 namespace clatter::observables {
@@ -62,8 +62,7 @@ class Attractor::Observer {
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
+  void event(const motion::Event&) {}
   bool response(const ObservedSpan&, double) { return true; }
 
   /// The end of a period is its beginning. Unforced motion that goes on loses nothing, and is no attractor.

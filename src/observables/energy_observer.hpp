@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "motion/event.hpp"
 #include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
 #include "observables/energy.hpp"
@@ -33,30 +34,17 @@ class Energy::Observer {
     see({first.x, arc.anchor(), first.offset}, first.v);
     integrate(arc, length);
   }
-  void rest(const motion::Rest& rest) {
-    see(Place(rest.position), rest.v_begin);
-    if (rest.is_stick()) return press(rest);
-    const std::size_t stop = index_of(rest.side);
-    impulse_[stop] += rest.v_begin != 0 || rest.v_end != 0 ? of_chatter(rest) : pressing(rest);
-    loss_impact_[stop] += (rest.v_begin - rest.v_end) * (rest.v_begin + rest.v_end) / 2;
+  void event(const motion::Event& event) {
+    if (loose_) return loose_->event(event);
+    if (!event.lasts() && event.kind != motion::Event::Kind::impact) return;
+    see(Place(event.place), event.before);
+    if (event.is_stick()) return press(event);
+    const std::size_t stop = index_of(event.side);
+    loss_impact_[stop] += (event.before - event.after) * (event.before + event.after) / 2;
+    impulse_[stop] += !event.lasts()                          ? std::abs(event.after - event.before)
+                      : event.before != 0 || event.after != 0 ? of_chatter(event)
+                                                              : pressing(event);
   }
-  void impact(const motion::Impact& impact) {
-    see(Place(impact.position), impact.before);
-    const std::size_t stop = index_of(impact.side);
-    loss_impact_[stop] += (impact.before - impact.after) * (impact.before + impact.after) / 2;
-    impulse_[stop] += std::abs(impact.after - impact.before);
-  }
-
-  template <class A>
-  void in_housing(const A& arc, double begins, double length) {
-    loose_->in_housing(arc, begins, length);
-  }
-  template <class A>
-  void hold(const A& arc, const motion::Rest& hold) {
-    loose_->hold(arc, hold);
-  }
-  void strike(const motion::Strike& strike) { loose_->strike(strike); }
-  void press(const motion::Press& press) { loose_->press(press); }
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
     if (loose_) return with_loose_mass(span, x, v);
@@ -168,11 +156,11 @@ class Energy::Observer {
       impulse_[index_of(stop->side)] += length * stop->force(stop->into(m.offset), stop->into(m.v));
   }
   /// The force of a soft stop, with which friction holds the mass.
-  void press(const motion::Rest& stick) {
-    const Side side = soft_stop_beyond(stops_, stick.position);
+  void press(const motion::Event& stick) {
+    const Side side = soft_stop_beyond(stops_, stick.place);
     if (side == Side::none) return;
     const auto stop = motion::soft_stop_at<double>(stops_, side);
-    impulse_[index_of(side)] += stick.length * stop.force(stop.into(stick.position - stop.position), 0.0);
+    impulse_[index_of(side)] += stick.length * stop.force(stop.into(stick.place - stop.position), 0.0);
   }
   /// The soft stop that an arc is in contact with, or nullptr.
   template <class A>
@@ -200,9 +188,9 @@ class Energy::Observer {
 
   /// Integral of the force that presses the mass into a stop, eq. 22, over a rest. A pull away from the stop is none of
   /// its own: friction holds the mass against that.
-  [[nodiscard]] double pressing(const motion::Rest& rest) const {
+  [[nodiscard]] double pressing(const motion::Event& rest) const {
     if (friction_ == 0) return pressing(rest, rest.time, rest.length);
-    const double constant = sign_of(rest.side) * constant_force(oscillator_, rest.position),
+    const double constant = sign_of(rest.side) * constant_force(oscillator_, rest.place),
                  force = std::abs(oscillator_.forcing);
     if (constant >= force) return pressing(rest, rest.time, rest.length);
     if (constant <= -force) return 0.0;
@@ -219,9 +207,9 @@ class Energy::Observer {
     }
     return sum;
   }
-  [[nodiscard]] double pressing(const motion::Rest& rest, double time, double length) const {
+  [[nodiscard]] double pressing(const motion::Event& rest, double time, double length) const {
     const Oscillator& o = oscillator_;
-    double sum = constant_force(o, rest.position) * length;
+    double sum = constant_force(o, rest.place) * length;
     if (o.forcing != 0) {
       const double half = o.frequency * length / 2;
       sum += 2 * o.forcing / o.frequency * std::sin(phase_ + o.frequency * time + half) * std::sin(half);
@@ -230,9 +218,9 @@ class Energy::Observer {
   }
   /// The impulse of a chatter that is summed: the mass has its momentum back in the end, and friction, which presses it
   /// on while it rises, has held it off for longer while it fell.
-  [[nodiscard]] double of_chatter(const motion::Rest& rest) const {
+  [[nodiscard]] double of_chatter(const motion::Event& rest) const {
     const double sum = pressing(rest, rest.time, rest.length);
-    const double given_back = sum - sign_of(rest.side) * (rest.v_end - rest.v_begin);
+    const double given_back = sum - sign_of(rest.side) * (rest.after - rest.before);
     if (friction_ == 0 || !(rest.length > 0)) return given_back;
     // falls and rises take times as (a + mu)^(1/2) to (a - mu)^(1/2)
     const double a = sum / rest.length;

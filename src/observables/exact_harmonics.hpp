@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "motion/arc.hpp"
+#include "motion/event.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "observables/quadrature.hpp"
 #include "scene/displacement_bound.hpp"
@@ -57,14 +58,15 @@ class ExactHarmonics {
       x_[k] += (force(arc, w, length) * turn(w * begin) - ends) / z;
     }
   }
-  void rest(const motion::Rest& rest) {
-    if (!(rest.time > 0.0)) first_x_ = rest.position;
+  /// Beside the flights, times at rest; a mass on which a loose one presses moves along an arc.
+  void event(const motion::Event& event) {
+    if (!event.lasts() || event.kind == motion::Event::Kind::hold) return;
+    if (!(event.time > 0.0)) first_x_ = event.place;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k);
-      x_[k] += rest.position * turn(w * rest.time) * wave(-w, rest.length);
+      x_[k] += event.place * turn(w * event.time) * wave(-w, event.length);
     }
   }
-  void impact(const motion::Impact&) {}
 
   /// All flights of whole forcing periods at once, without rest: the terms at the ends of arcs cancel but for the jumps
   /// of the velocity, whose sums with e^{-iw tau}, w = k nu, are given, shape [harmonic]. Nowhere may Z be small.

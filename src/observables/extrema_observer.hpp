@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "math/bernstein.hpp"
+#include "motion/event.hpp"
+#include "motion/housed_arc.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "motion/polynomial_in_housing.hpp"
 #include "observables/absolute_arc.hpp"
@@ -21,22 +23,10 @@ class Extrema::Observer {
   Observer() = default;
   Observer(const Settings&, const ObservedSpan& span) : absolute_(span.frame ? &span : nullptr) {}
 
-  template <Effects E>
-  void arc(const motion::Arc<double, E>& arc, double begin, double length) {
-    if (!(length > 0)) return;
-    if (absolute_ == nullptr) return look_at(arc, length);
-    look_at(AbsoluteArc(arc, *absolute_->frame, absolute_->scene.stops, begin), length);
-  }
-  template <motion::Polynomial A>
+  template <class A>
   void arc(const A& arc, double begin, double length) {
-    if (!(length > 0)) return;
-    ++evaluations_;
-    const double part = arc.length() > 0 ? length / arc.length() : 0.0;
-    Bernstein<double> offset = arc.offset(), velocity = arc.velocity();
-    offset = split_off(offset, part), velocity = split_off(velocity, part);
-    if (absolute_ != nullptr) return include_absolute(x_, v_, arc, begin, length, offset, velocity);
-    include_polynomial(x_, offset, arc.anchor());
-    include_polynomial(v_, velocity);
+    if (length > 0) see_main(motion::main_of(arc), begin, length);
+    if constexpr (motion::Housed<A>) see_loose(arc.main(), arc.loose, begin, length);
   }
   /// Adds ranges that were found elsewhere.
   void include(const Range& x, const Range& v) {
@@ -51,47 +41,19 @@ class Extrema::Observer {
     include({middle - amplitude, middle + amplitude}, {-v, v});
     return true;
   }
-  void rest(const motion::Rest& rest) {
-    if (absolute_ != nullptr) return include_absolute(rest);
-    x_.include(rest.position), v_.include(0.0);
-  }
-  /// In the absolute frame the ends of the arcs before and after have it all.
-  void impact(const motion::Impact& impact) {
-    if (absolute_ != nullptr) return;
-    x_.include(impact.position), v_.include(impact.before), v_.include(impact.after);
-  }
-
-  void strike(const motion::Strike& strike) {
-    if (absolute_ == nullptr) v_.include(strike.v_before), v_.include(strike.v_after);
-    z_.include(strike.wall);
-  }
-  template <Effects E>
-  void in_housing(const motion::RelativeArc<double, E>& arc, double begin, double length) {
-    if (!(length > 0)) return;
-    look_at_place(z_, arc, length);
-    const LooseArc loose(arc);
-    if (absolute_ == nullptr) return look_at_place(y_, loose, length);
-    look_at_place(y_, AbsoluteArc(loose, *absolute_->frame, Stops{}, begin), length);
-  }
-  template <Effects E>
-  void in_housing(const motion::PolynomialInHousing<E>& arc, double begin, double length) {
-    if (!(length > 0)) return;
-    Bernstein<double> place = arc.offset(), way = arc.way();
-    include_polynomial(z_, split_off(place, length / arc.length()), arc.anchor());
-    include_loose(arc.main(), begin, length, way, arc.anchor());
-  }
-  /// While a wall presses it, a loose mass moves with the main mass.
-  template <Effects E>
-  void hold(const motion::PolynomialArc<E>& arc, const motion::Rest& hold) {
-    z_.include(hold.position);
-    if (hold.length > 0) include_loose(arc, hold.time, hold.length, arc.offset(), hold.position);
-  }
-  template <Effects E>
-  void hold(const motion::Arc<double, E>& arc, const motion::Rest& hold) {
-    z_.include(hold.position);
-    if (!(hold.length > 0)) return;
-    if (absolute_ == nullptr) return look_at_place(y_, arc, hold.length, hold.position);
-    look_at_place(y_, AbsoluteArc(arc, *absolute_->frame, Stops{}, hold.time), hold.length, hold.position);
+  /// In the absolute frame the ends of the arcs before and after an impact have it all.
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind == Kind::strike) z_.include(event.place);
+    if (absolute_ != nullptr) {
+      if (event.lasts() && event.kind != Kind::hold) include_absolute(event);
+    } else if (event.kind == Kind::strike) {
+      v_.include(event.main.before), v_.include(event.main.after);
+    } else if (event.kind == Kind::impact) {
+      x_.include(event.place), v_.include(event.before), v_.include(event.after);
+    } else if (event.lasts() && event.kind != Kind::hold) {
+      x_.include(event.place), v_.include(0.0);
+    }
   }
 
   /// Cut at the stops, which the end of an arc meets only to rounding, or by time stepping to the length of a step.
@@ -117,6 +79,53 @@ class Extrema::Observer {
   [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
  private:
+  template <Effects E>
+  void see_main(const motion::Arc<double, E>& arc, double begin, double length) {
+    if (absolute_ == nullptr) return look_at(arc, length);
+    look_at(AbsoluteArc(arc, *absolute_->frame, absolute_->scene.stops, begin), length);
+  }
+  template <motion::Polynomial A>
+  void see_main(const A& arc, double begin, double length) {
+    ++evaluations_;
+    const double part = arc.length() > 0 ? length / arc.length() : 0.0;
+    Bernstein<double> offset = arc.offset(), velocity = arc.velocity();
+    offset = split_off(offset, part), velocity = split_off(velocity, part);
+    if (absolute_ != nullptr) return include_absolute(x_, v_, arc, begin, length, offset, velocity);
+    include_polynomial(x_, offset, arc.anchor());
+    include_polynomial(v_, velocity);
+  }
+
+  template <Effects E>
+  void see_loose(const motion::Arc<double, E>&, const motion::RelativeArc<double, E>& arc, double begin,
+                 double length) {
+    if (!(length > 0)) return;
+    look_at_place(z_, arc, length);
+    const LooseArc loose(arc);
+    if (absolute_ == nullptr) return look_at_place(y_, loose, length);
+    look_at_place(y_, AbsoluteArc(loose, *absolute_->frame, Stops{}, begin), length);
+  }
+  template <Effects E>
+  void see_loose(const motion::PolynomialArc<E>& main, const motion::PolynomialInHousing<E>& arc, double begin,
+                 double length) {
+    if (!(length > 0)) return;
+    Bernstein<double> place = arc.offset(), way = arc.way();
+    include_polynomial(z_, split_off(place, length / arc.length()), arc.anchor());
+    include_loose(main, begin, length, way, arc.anchor());
+  }
+  /// While a wall presses it, a loose mass moves with the main mass.
+  template <Effects E>
+  void see_loose(const motion::PolynomialArc<E>& main, const motion::Pressed& loose, double begin, double length) {
+    z_.include(loose.place);
+    if (length > 0) include_loose(main, begin, length, main.offset(), loose.place);
+  }
+  template <Effects E>
+  void see_loose(const motion::Arc<double, E>& main, const motion::Pressed& loose, double begin, double length) {
+    z_.include(loose.place);
+    if (!(length > 0)) return;
+    if (absolute_ == nullptr) return look_at_place(y_, main, length, loose.place);
+    look_at_place(y_, AbsoluteArc(main, *absolute_->frame, Stops{}, begin), length, loose.place);
+  }
+
   template <class A>
   void look_at(const A& arc, double length) {
     const auto see = [this](const motion::Motion<double>& m) { x_.include(m.x), v_.include(m.v); };
@@ -151,12 +160,12 @@ class Extrema::Observer {
   }
   /// At rest the mass moves with the stop: it turns back where that does. The ends of a rest belong to the arcs beside
   /// it, too, but for the beginning and the end of the observed time.
-  void include_absolute(const motion::Rest& rest) {
+  void include_absolute(const motion::Event& rest) {
     const FrameMotion& frame = *absolute_->frame;
-    if (!(rest.time > 0.0)) include_absolute(rest.position, 0.0, frame.at(0.0));
+    if (!(rest.time > 0.0)) include_absolute(rest.place, 0.0, frame.at(0.0));
     for (int quarter = 0; quarter < 4; ++quarter)
       if (frame.passes(quarter, rest.time, rest.length))
-        include_absolute(rest.position, 0.0, sine_cosine_of_turns(quarter / 4.0));
+        include_absolute(rest.place, 0.0, sine_cosine_of_turns(quarter / 4.0));
   }
   /// The end of the observed time, by its part of a forcing period, as a long time costs its phase digits. A mass that
   /// nothing moves in the moving frame moves with it for ever, not only for the period that is observed.

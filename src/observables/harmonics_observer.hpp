@@ -24,15 +24,12 @@ class Harmonics::Observer {
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
-    by([&](auto& observer) { observer.arc(arc, begin, length); });
+    by([&](auto& observer) { observer.arc(motion::main_of(arc), begin, length); });
   }
-  void rest(const motion::Rest& rest) {
-    by([&](auto& observer) { observer.rest(rest); });
+  /// Of a loose mass, the impact of the main one.
+  void event(const motion::Event& event) {
+    by([&](auto& observer) { observer.event(event.of_main()); });
   }
-  void impact(const motion::Impact& impact) {
-    by([&](auto& observer) { observer.impact(impact); });
-  }
-  void strike(const motion::Strike& strike) { impact(strike.of_main()); }
   /// Exact harmonics know the response; those of its samples are the same, since a sine over whole periods has one sum
   /// alone that isn't 0.
   bool response(const ObservedSpan& span, double x) {

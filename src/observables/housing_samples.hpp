@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "motion/event.hpp"
+#include "motion/housed_arc.hpp"
 #include "motion/state.hpp"
 #include "observables/samples.hpp"
 #include "scene/loose_mass.hpp"
@@ -14,15 +16,20 @@ class HousingSamples {
   HousingSamples(std::size_t count, double spacing, AtImpact at_impact, const LooseMass& loose, double first = 0.0)
       : samples_(count, spacing, at_impact, {.lower = loose.lower, .upper = loose.upper}, first) {}
 
-  template <class A>
-  void in_housing(const A& arc, double begin, double length) {
-    samples_.arc(arc, begin, length);
-    const motion::Motion<double> end = arc.at(length);
-    z_ = end.x, w_ = end.v;
+  /// Of the arc of a main mass, what the loose one does meanwhile; a time for which a wall presses it is an event.
+  template <motion::Housed A>
+  void arc(const A& arc, double begin, double length) {
+    if constexpr (requires { arc.loose.at(length); }) {
+      samples_.arc(arc.loose, begin, length);
+      const motion::Motion<double> end = arc.loose.at(length);
+      z_ = end.x, w_ = end.v;
+    }
   }
-  void hold(const motion::Rest& hold) { samples_.rest(hold), z_ = hold.position, w_ = 0; }
-  void strike(const motion::Strike& strike) {
-    samples_.impact(strike.in_housing()), z_ = strike.wall, w_ = strike.after;
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind != Kind::strike && event.kind != Kind::hold) return;
+    samples_.event(event.in_housing());
+    z_ = event.place, w_ = event.after;
   }
 
   /// Ends the observed time, of length `total`, where the mass is.

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 #include "observables/observable.hpp"
 
 namespace clatter::observables {
@@ -55,7 +55,7 @@ struct ImpactLog {
   };
   struct Values {
     std::vector<LoggedImpact> log{};
-    std::vector<motion::Rest> rests{};
+    std::vector<motion::Event> rests{};  ///< of a loose mass as in its housing
   };
   static constexpr std::tuple fields{Field{Key{"observe", "impact_log", Kind::flag, "false", "true",
                                                "log of every observed impact: time, stop, velocities, forcing phase"},

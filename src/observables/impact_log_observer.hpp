@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "math/number.hpp"
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 #include "observables/impact_log.hpp"
 
 namespace clatter::observables {
@@ -25,34 +25,21 @@ class ImpactLog::Observer {
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest& rest) {
-    if (full_) values_.rests.push_back(rest);
-  }
-  void impact(const motion::Impact& impact) { log(impact, impact.before, impact.after); }
-  void impact_at_start(const motion::Impact& at_start) {
-    if (full_) impact(at_start);
-  }
   /// A contact with a soft stop is logged with the velocities at its beginning and where the stop's force first falls
-  /// to 0, NaN if that isn't observed: beyond the stop's position the contact may be renewed after that.
-  void touch(const motion::Touch& touch) {
-    if (touch.from_outside) log(touch, touch.velocity, no_value);
+  /// to 0, NaN if that isn't observed: beyond the stop's position the contact may be renewed after that. Of a loose
+  /// mass z' is logged, and the velocity y' as seen from the ground, on which its motion is computed; the time for
+  /// which a wall presses it is its rest in the housing.
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.lasts() && full_) values_.rests.push_back(event.in_housing());
+    if (event.kind == Kind::impact || event.kind == Kind::strike) log(event, event.after);
+    if (event.kind == Kind::touch) log(event, no_value);
+    if (event.kind == Kind::strike) values_.log.back().absolute = event.main.before + event.before;
+    if (event.kind == Kind::separation) end_contact(event);
   }
-  void separate(const motion::Separation& separation) {
-    if (!values_.log.empty() && values_.log.back().side == separation.side && std::isnan(values_.log.back().after))
-      values_.log.back().after = separation.velocity;
-  }
-  /// Of a loose mass z' is logged, and the velocity y' as seen from the ground, on which its motion is computed.
-  void strike(const motion::Strike& strike) {
-    log(strike.in_housing(), strike.before, strike.after);
-    values_.log.back().absolute = strike.v_before + strike.before;
-  }
-  void strike_at_start(const motion::Strike& at_start) {
-    if (full_) strike(at_start);
-  }
-  /// The time for which a wall presses a loose mass is its rest in the housing.
-  template <class A>
-  void hold(const A&, const motion::Rest& hold) {
-    rest(hold);
+  void event_at_start(const motion::Event& at_start) {
+    const bool is_impact = at_start.kind == motion::Event::Kind::impact || at_start.kind == motion::Event::Kind::strike;
+    if (full_ && is_impact) event(at_start);
   }
   /// The response meets no stop.
   bool response(const ObservedSpan&, double) { return true; }
@@ -64,10 +51,16 @@ class ImpactLog::Observer {
   /// The forcing phase is counted by periods of the force, if one is left in the moving frame, else by time.
   enum class Drive : std::uint8_t { none, force, shaking };
 
-  template <class Contact>
-  void log(const Contact& contact, double before, double after) {
-    LoggedImpact logged{
-        .time = contact.time, .before = before, .after = after, .absolute = before, .side = contact.side};
+  void end_contact(const motion::Event& separation) {
+    if (!values_.log.empty() && values_.log.back().side == separation.side && std::isnan(values_.log.back().after))
+      values_.log.back().after = separation.after;
+  }
+  void log(const motion::Event& contact, double after) {
+    LoggedImpact logged{.time = contact.time,
+                        .before = contact.before,
+                        .after = after,
+                        .absolute = contact.before,
+                        .side = contact.side};
     if (drive_ != Drive::none) {
       const double since = drive_ == Drive::force ? contact.turns : frequency_ * contact.time / (2 * pi<double>());
       const double turns = part_of_turn(begin_ + since);

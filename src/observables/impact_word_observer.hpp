@@ -3,6 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "motion/event.hpp"
+#include "motion/housed_arc.hpp"
 #include "motion/state.hpp"
 #include "observables/impact_word.hpp"
 #include "scene/displacement_bound.hpp"
@@ -17,29 +19,18 @@ class ImpactWord::Observer {
   template <class A>
   void arc(const A& arc, double begin, double length) {
     moves_ = moves_ || length > 0;
+    if constexpr (motion::Housed<A>) see_place(arc.loose, begin, length);
     if (!periodic_ || !(begin <= half_ && half_ <= begin + length)) return;
     const motion::Motion<double> m = arc.at(half_ - begin);
     halfway_ = {m.x, m.v};
   }
-  void rest(const motion::Rest& rest) {
-    if (rest.is_stick()) return stick(rest);
-    see(rest.time, rest.side, 0.0);
-  }
-  void impact(const motion::Impact& impact) { see(impact.time, impact.side, impact.before); }
-  /// The touch of a soft stop has the letter of an impact.
-  void touch(const motion::Touch& touch) {
-    if (touch.from_outside) see(touch.time, touch.side, touch.velocity);
-  }
-  /// The walls of a loose mass have the letters of stops.
-  void strike(const motion::Strike& strike) { see(strike.time, strike.side, strike.before); }
-  template <class A>
-  void hold(const A&, const motion::Rest& hold) {
-    see(hold.time, hold.side, 0.0);
-    place(hold.time, hold.length, [&](double) { return hold.position; });
-  }
-  template <class A>
-  void in_housing(const A& arc, double begin, double length) {
-    place(begin, length, [&](double s) { return arc.at(s).x; });
+  /// The touch of a soft stop has the letter of an impact, and the walls of a loose mass have the letters of stops.
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    const bool has_letter =
+        event.lasts() || event.kind == Kind::impact || event.kind == Kind::touch || event.kind == Kind::strike;
+    if (event.is_stick()) return stick(event);
+    if (has_letter) see(event.time, event.side, event.velocity());
   }
   /// The response has no impacts, and turns into its mirror whenever the force does.
   bool response(const ObservedSpan&, double) {
@@ -55,18 +46,18 @@ class ImpactWord::Observer {
   static constexpr double same = 1e-6;  ///< relative difference of what counts as the mirror image
 
   /// Keeps the place of a loose mass halfway, and where it was seen last.
-  template <class At>
-  void place(double begin, double length, const At& at) {
+  template <class Loose>
+  void see_place(const Loose& loose, double begin, double length) {
     if (!periodic_) return;
-    if (begin <= half_ && half_ <= begin + length) halfway_z_ = at(half_ - begin);
-    last_z_ = at(length);
+    if (begin <= half_ && half_ <= begin + length) halfway_z_ = motion::place_at(loose, half_ - begin);
+    last_z_ = motion::place_at(loose, length);
   }
   /// One that a section cuts is one stick.
-  void stick(const motion::Rest& rest) {
-    if (rest.time <= half_ && half_ <= rest.time + rest.length) halfway_ = {rest.position, 0.0};
-    const bool goes_on = rest.time <= stuck_until_ * (1 + same_instant);
-    stuck_until_ = rest.time + rest.length;
-    if (shows_sticks_ && !goes_on) see(rest.time, Side::none, 0.0);
+  void stick(const motion::Event& stick) {
+    if (stick.time <= half_ && half_ <= stick.end()) halfway_ = {stick.place, 0.0};
+    const bool goes_on = stick.time <= stuck_until_ * (1 + same_instant);
+    stuck_until_ = stick.end();
+    if (shows_sticks_ && !goes_on) see(stick.time, Side::none, 0.0);
   }
   void see(double time, Side side, double before) {
     if (periodic_) contacts_.push_back({time, before, side});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "motion/event.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
@@ -23,34 +24,35 @@ class Impacts::Observer {
     if constexpr (A::effects.stiffness)
       if (arc.constants().stop.side != Side::none && length > 0) contact(arc, length);
   }
-  void rest(const motion::Rest& rest) {
-    if (rest.is_stick()) return stick(rest);
-    if (rest.held) stops_[index_of(rest.side)].rest_time += rest.length;
-  }
-  void impact(const motion::Impact& impact) {
-    OfStop& stop = stops_[index_of(impact.side)];
-    if (stop.count == 0.0) stop.after = impact.after;
-    stop.meet(impact.before);
-  }
-  /// A contact with a soft stop counts like an impact if the mass comes from outside; its velocities are those at the
-  /// touch and where the stop's force has fallen to 0.
-  void touch(const motion::Touch& touch) {
-    if (!touch.from_outside) return;
-    stops_[index_of(touch.side)].meet(touch.velocity);
-  }
-  void separate(const motion::Separation& separation) {
-    OfStop& stop = stops_[index_of(separation.side)];
-    if (std::isnan(stop.after) && stop.count > 0.0) stop.after = separation.velocity;
-    if (std::isnan(stop.left_first)) stop.left_first = separation.velocity;
+  /// The walls of a loose mass count like stops, with z' in place of the velocity. A contact with a soft stop counts
+  /// like an impact if the mass comes from outside; its velocities are those at the touch and where the stop's force
+  /// has fallen to 0.
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.is_stick()) return stick(event);
+    if (event.side == Side::none) return;
+    OfStop& stop = stops_[index_of(event.side)];
+    switch (event.kind) {
+      case Kind::impact:
+      case Kind::strike:
+        if (stop.count == 0.0) stop.after = event.after;
+        return stop.meet(event.before);
+      case Kind::touch:
+        return stop.meet(event.before);
+      case Kind::separation:
+        if (std::isnan(stop.after) && stop.count > 0.0) stop.after = event.after;
+        if (std::isnan(stop.left_first)) stop.left_first = event.after;
+        return;
+      case Kind::rest:
+      case Kind::hold:
+        stop.rest_time += event.length;
+        return;
+      default:
+        return;
+    }
   }
   /// Takes over what was counted elsewhere, in motion that never rests.
   void include(const std::array<OfStop, 2>& stops) { stops_ = stops; }
-  /// The walls of a loose mass count like stops, with z' in place of the velocity.
-  void strike(const motion::Strike& strike) { impact(strike.in_housing()); }
-  template <class A>
-  void hold(const A&, const motion::Rest& hold) {
-    rest(hold);
-  }
   /// The response meets no stop.
   bool response(const ObservedSpan&, double) { return true; }
 
@@ -75,13 +77,13 @@ class Impacts::Observer {
 
  private:
   /// Friction may hold the mass in contact with a soft stop, too.
-  void stick(const motion::Rest& stick) {
+  void stick(const motion::Event& stick) {
     stick_time_ += stick.length;
-    const Side side = soft_stop_beyond(soft_stops_, stick.position);
+    const Side side = soft_stop_beyond(soft_stops_, stick.place);
     if (side == Side::none) return;
     const auto stop = motion::soft_stop_at<double>(soft_stops_, side);
     stops_[index_of(side)].contact_time += stick.length;
-    stops_[index_of(side)].force.include(stop.force(stop.into(stick.position - stop.position), 0.0));
+    stops_[index_of(side)].force.include(stop.force(stop.into(stick.place - stop.position), 0.0));
   }
   template <Effects E>
   void contact(const motion::Arc<double, E>& arc, double length) {

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "motion/event.hpp"
+#include "motion/housed_arc.hpp"
 #include "motion/walls.hpp"
 #include "observables/observable.hpp"
 #include "observables/quadrature.hpp"
@@ -26,45 +28,14 @@ class LooseEnergy {
   template <class A>
   void arc(const A& arc, double begin, double length) {
     if (!(length > 0)) return;  // before an impact at the very beginning
-    see_begin(arc.start().x, arc.start().v);
-    const bool is_carrying = arc.constants().carried != 0;
-    over(arc.constants().rate, length, [&](double s, double weight) {
-      const motion::Motion<double> m = arc.at(s);
-      const Frame b = frame_at(m.sine, m.cosine, begin + s);
-      const double v = m.v - b.v;
-      const double force = oscillator_.load + oscillator_.forcing * m.sine - oscillator_.stiffness * b.x -
-                           2 * oscillator_.damping * b.v - b.a;
-      work_ += weight * force * v;
-      damped_ += weight * 2 * oscillator_.damping * v * v;
-      if (is_carrying) work_ += weight * loose_.ratio * (loose_.load - b.a) * v;
-    });
+    see_main(arc, begin, length);
+    if constexpr (motion::Housed<A>) see_loose(arc, arc.loose, begin, length);
   }
-  template <class A>
-  void in_housing(const A& arc, double begin, double length) {
-    if (!(length > 0)) return;
-    see_loose(arc.velocity(0.0));
-    over(std::max(frame_.frequency(), 1.0), length, [&](double s, double weight) {
-      const auto [sine, cosine] = arc.main().phase_after(s);
-      const Frame b = frame_at(sine, cosine, begin + s);
-      work_ += weight * loose_.ratio * (loose_.load - b.a) * (arc.velocity(s) - b.v);
-    });
-    loose_v_ = arc.velocity(length);
-  }
-  template <class A>
-  void hold(const A& arc, const motion::Rest& hold) {
-    if (!(hold.length > 0)) return;
-    const double first = arc.start().v, last = arc.at(hold.length).v;
-    see_loose(first);
-    impulse_[index_of(hold.side)] += loose_.ratio * std::abs(loose_.load * hold.length - (last - first));
-    loose_v_ = last;
-  }
-  void strike(const motion::Strike& strike) {
-    lose(strike.side, strike.before, strike.after);
-    loose_v_ = strike.v_after + strike.after;
-  }
-  void press(const motion::Press& press) {
-    lose(press.side, press.speed, 0.0);
-    loose_v_ = press.v_after;
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind != Kind::strike && event.kind != Kind::press) return;
+    lose(event.side, event.before, event.after);
+    loose_v_ = event.main.after + event.after;
   }
 
   /// The terms of the ledger, the observed time ending with displacement x and velocity v.
@@ -83,6 +54,39 @@ class LooseEnergy {
   [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
  private:
+  template <class A>
+  void see_main(const A& arc, double begin, double length) {
+    see_begin(arc.start().x, arc.start().v);
+    const bool is_carrying = arc.constants().carried != 0;
+    over(arc.constants().rate, length, [&](double s, double weight) {
+      const motion::Motion<double> m = arc.at(s);
+      const Frame b = frame_at(m.sine, m.cosine, begin + s);
+      const double v = m.v - b.v;
+      const double force = oscillator_.load + oscillator_.forcing * m.sine - oscillator_.stiffness * b.x -
+                           2 * oscillator_.damping * b.v - b.a;
+      work_ += weight * force * v;
+      damped_ += weight * 2 * oscillator_.damping * v * v;
+      if (is_carrying) work_ += weight * loose_.ratio * (loose_.load - b.a) * v;
+    });
+  }
+  template <class A, class Loose>
+  void see_loose(const A& main, const Loose& loose, double begin, double length) {
+    see_begin_of_loose(loose.velocity(0.0));
+    over(std::max(frame_.frequency(), 1.0), length, [&](double s, double weight) {
+      const auto [sine, cosine] = main.phase_after(s);
+      const Frame b = frame_at(sine, cosine, begin + s);
+      work_ += weight * loose_.ratio * (loose_.load - b.a) * (loose.velocity(s) - b.v);
+    });
+    loose_v_ = loose.velocity(length);
+  }
+  template <class A>
+  void see_loose(const A& main, const motion::Pressed& loose, double, double length) {
+    const double first = main.start().v, last = main.at(length).v;
+    see_begin_of_loose(first);
+    impulse_[index_of(loose.wall)] += loose_.ratio * std::abs(loose_.load * length - (last - first));
+    loose_v_ = last;
+  }
+
   /// Displacement, velocity and acceleration of a base.
   struct Frame {
     double x = 0.0, v = 0.0, a = 0.0;
@@ -109,7 +113,7 @@ class LooseEnergy {
   void see_begin(double x, double v) {
     if (!begin_) begin_ = Place{x, v};
   }
-  void see_loose(double v) {
+  void see_begin_of_loose(double v) {
     if (!begin_loose_) begin_loose_ = v;
   }
   /// An impact: its impulse from z', as the velocities of the main mass differ by less than their digits if the loose

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <type_traits>
 
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 #include "observables/all.hpp"
 #include "observables/energy_observer.hpp"
 #include "observables/extrema_observer.hpp"
@@ -22,15 +22,13 @@
 
 namespace clatter::observables {
 
-/// The observer of an observable: it begins with the observed time, sees arcs, rests and impacts, and gives the values
-/// at the end.
+/// The observer of an observable: it begins with the observed time, sees arcs and events, and gives the values at the
+/// end.
 template <class O>
-concept Observed = Observable<O> &&
-    requires(const typename O::Settings& settings, typename O::Observer& observer, const ObservedSpan& span,
-             const motion::Rest& rest, const motion::Impact& impact) {
+concept Observed = Observable<O> && requires(const typename O::Settings& settings, typename O::Observer& observer,
+                                             const ObservedSpan& span, const motion::Event& event) {
   requires std::constructible_from<typename O::Observer, const typename O::Settings&, const ObservedSpan&>;
-  observer.rest(rest);
-  observer.impact(impact);
+  observer.event(event);
   { observer.finish(span, 0.0, 0.0) } -> std::same_as<typename O::Values>;
 };
 
@@ -79,69 +77,16 @@ class Observers<ObservableList<Os...>> {
   void arc(const A& arc, double begin, double length) {
     present([&](auto& observer) { observer.arc(arc, begin, length); });
   }
-  void rest(const motion::Rest& rest) {
-    present([&](auto& observer) { observer.rest(rest); });
-  }
-  /// An impact at the very beginning belongs to the time before, and is shown to those alone that ask for it.
-  void impact(const motion::Impact& impact) {
+  /// A contact that begins or ends at the very beginning belongs to the time before, and is shown to those alone that
+  /// ask for it.
+  void event(const motion::Event& event) {
+    const bool is_of_before = event.is_contact() && !(event.time > 0.0);
     present([&](auto& observer) {
-      if (impact.time > 0.0) {
-        observer.impact(impact);
-      } else if constexpr (requires { observer.impact_at_start(impact); }) {
-        observer.impact_at_start(impact);
+      if (!is_of_before) {
+        observer.event(event);
+      } else if constexpr (requires { observer.event_at_start(event); }) {
+        observer.event_at_start(event);
       }
-    });
-  }
-
-  /// The beginning of a contact with a soft stop, and its end, for those that ask for them; one at the very beginning
-  /// belongs to the time before, like an impact.
-  void touch(const motion::Touch& touch) {
-    if (!(touch.time > 0.0)) return;
-    present([&](auto& observer) {
-      if constexpr (requires { observer.touch(touch); }) observer.touch(touch);
-    });
-  }
-  void separate(const motion::Separation& separation) {
-    if (!(separation.time > 0.0)) return;
-    present([&](auto& observer) {
-      if constexpr (requires { observer.separate(separation); }) observer.separate(separation);
-    });
-  }
-
-  /// A loose mass in its housing, for those that ask for it: its flight while the main mass moves along an arc that has
-  /// just been shown, its impacts on walls, and the times in which a wall presses it, along such an arc, too. An impact
-  /// at the very beginning belongs to the time before.
-  template <class A>
-  void in_housing(const A& arc, double begin, double length) {
-    present([&](auto& observer) {
-      if constexpr (requires { observer.in_housing(arc, begin, length); }) observer.in_housing(arc, begin, length);
-    });
-  }
-  void strike(const motion::Strike& strike) {
-    present([&](auto& observer) {
-      if (strike.time > 0.0) {
-        if constexpr (requires { observer.strike(strike); }) observer.strike(strike);
-      } else if constexpr (requires { observer.strike_at_start(strike); }) {
-        observer.strike_at_start(strike);
-      }
-    });
-  }
-  void press(const motion::Press& press) {
-    present([&](auto& observer) {
-      if constexpr (requires { observer.press(press); }) observer.press(press);
-    });
-  }
-  template <class A>
-  void hold(const A& arc, const motion::Rest& hold) {
-    present([&](auto& observer) {
-      if constexpr (requires { observer.hold(arc, hold); }) observer.hold(arc, hold);
-    });
-  }
-
-  /// The velocity of a slip passes 0, for those that ask for it.
-  void reversal(const motion::Reversal& reversal) {
-    present([&](auto& observer) {
-      if constexpr (requires { observer.reversal(reversal); }) observer.reversal(reversal);
     });
   }
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "math/number.hpp"
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 #include "observables/period.hpp"
 
 namespace clatter::observables {
@@ -16,14 +16,10 @@ class Period::Observer {
   void arc(const A&, double, double length) {
     moves_ = moves_ || length > 0;
   }
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact& impact) {
-    if (!(first_speed_ >= 0.0)) first_speed_ = std::abs(impact.before);
+  void event(const motion::Event& event) {
+    const bool begins_contact = event.is_contact() && event.kind != motion::Event::Kind::separation;
+    if (begins_contact && !(first_speed_ >= 0.0)) first_speed_ = event.speed();
   }
-  void touch(const motion::Touch& touch) {
-    if (!(first_speed_ >= 0.0)) first_speed_ = std::abs(touch.velocity);
-  }
-  void strike(const motion::Strike& strike) { impact(strike.in_housing()); }
   /// Takes over the speed before the first impact, NaN if there is none, of motion that isn't at rest throughout.
   void include(double first_speed) { first_speed_ = first_speed, moves_ = true; }
   bool response(const ObservedSpan&, double) { return include(no_value), true; }

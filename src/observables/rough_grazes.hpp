@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 #include "scene/scene.hpp"
 
 namespace clatter::observables {
@@ -28,27 +28,29 @@ class RoughGrazes {
     const auto last = arc.at(length);
     acceleration_ = last.a, push_ = last.a - arc.constants().friction;
   }
-  /// An impact so slow that the mass would turn back within rounding of the stop.
-  void impact(const motion::Impact& impact) {
-    const bool brakes = impact.before * acceleration_ < 0;
-    if (brakes && impact.before * impact.before <= 2 * std::abs(acceleration_) * rounding_) grazes_ = true;
-  }
-  /// At a stop if the forces pull it away from there, else it is the crest of a rebound.
-  void reversal(const motion::Reversal& reversal) {
-    const double x = reversal.position, push = (reversal.before + reversal.after) / 2;
-    turn((push > 0 ? x - stops_.lower : stops_.upper - x), push);
-  }
-  /// Not of one that goes on after a section.
-  void rest(const motion::Rest& rest) {
-    const bool goes_on = rest.time <= until_ * (1 + 1e-12);
-    until_ = rest.time + rest.length;
-    if (rest.is_stick() && rest.time > 0 && !goes_on)
-      turn(std::min(rest.position - stops_.lower, stops_.upper - rest.position), push_);
+  void event(const motion::Event& event) {
+    if (event.kind == motion::Event::Kind::impact) strike(event.before);
+    if (event.kind == motion::Event::Kind::reversal) turn_back(event.place, (event.a_before + event.a_after) / 2);
+    if (event.lasts()) stay(event);
   }
 
   [[nodiscard]] bool found() const { return grazes_; }
 
  private:
+  /// An impact so slow that the mass would turn back within rounding of the stop.
+  void strike(double v) {
+    const bool brakes = v * acceleration_ < 0;
+    if (brakes && v * v <= 2 * std::abs(acceleration_) * rounding_) grazes_ = true;
+  }
+  /// At a stop if the forces pull it away from there, else it is the crest of a rebound.
+  void turn_back(double x, double push) { turn((push > 0 ? x - stops_.lower : stops_.upper - x), push); }
+  /// Not of a stick that goes on after a section.
+  void stay(const motion::Event& rest) {
+    const bool goes_on = rest.time <= until_ * (1 + 1e-12);
+    until_ = rest.end();
+    if (rest.is_stick() && rest.time > 0 && !goes_on)
+      turn(std::min(rest.place - stops_.lower, stops_.upper - rest.place), push_);
+  }
   /// The velocity falls to 0 so far from a stop, under the other forces `push`.
   void turn(double gap, double push) {
     if (gap <= rounding_) grazes_ = true;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <span>
 
+#include "motion/event.hpp"
+#include "motion/housed_arc.hpp"
 #include "motion/state.hpp"
 #include "scene/shaking.hpp"
 #include "scene/stops.hpp"
@@ -19,15 +21,15 @@ enum class AtImpact { after, mean };
 class Sampler {
  public:
   template <class A>
-  void arc(const A& arc, double begin, double length) {
+  requires(!motion::Housed<A>) void arc(const A& arc, double begin, double length) {
     by_runs(arc, begin, length, 0, [](const auto&, std::size_t) {});
   }
-  void rest(const motion::Rest& rest) {
-    while (is_due_before(rest.time + rest.length)) add(rest.position, due() > rest.time ? 0.0 : rest.v_begin);
-  }
-  void impact(const motion::Impact& impact) {
-    last_ = impact;
-    while (due() <= impact.time + rounding_ && !is_complete()) add(impact.position, at(impact));
+  void event(const motion::Event& event) {
+    if (event.lasts() && event.kind != motion::Event::Kind::hold)
+      while (is_due_before(event.end())) add(event.place, due() > event.time ? 0.0 : event.before);
+    if (event.kind != motion::Event::Kind::impact) return;
+    last_ = event;
+    while (due() <= event.time + rounding_ && !is_complete()) add(event.place, at(event));
   }
 
   /// Ends the observed time, of length `total`, in a state; in periodic motion an impact at its end is one at its
@@ -87,7 +89,7 @@ class Sampler {
 
  private:
   [[nodiscard]] double due() const { return instant(taken_); }
-  [[nodiscard]] double at(const motion::Impact& impact) const {
+  [[nodiscard]] double at(const motion::Event& impact) const {
     return at_impact_ == AtImpact::after ? impact.after : (impact.before + impact.after) / 2;
   }
   [[nodiscard]] bool is_due_before(double end) const { return due_before(end, 1) == 1; }
@@ -111,7 +113,7 @@ class Sampler {
   double spacing_, first_, rounding_;
   AtImpact at_impact_;
   Stops stops_;
-  motion::Impact last_{-std::numeric_limits<double>::infinity(), Side::none, 0, 0, 0};
+  motion::Event last_{.time = -std::numeric_limits<double>::infinity()};  ///< impact
   std::size_t taken_ = 0, evaluations_ = 0;
 };
 

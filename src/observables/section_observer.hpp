@@ -36,28 +36,16 @@ class Section::Observer {
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
-    if (samples_) return samples_->arc(arc, begin, length);
+    if constexpr (motion::Housed<A>)
+      if (loose_) loose_->arc(arc, begin, length);
+    if (samples_) return samples_->arc(motion::main_of(arc), begin, length);
     find_passages(arc, begin, length);
     bounced_ = false;
   }
-  void rest(const motion::Rest& rest) {
-    if (samples_) samples_->rest(rest);
-  }
-  void impact(const motion::Impact& impact) {
-    if (samples_) return samples_->impact(impact);
-    bounced_ = true;
-  }
-  template <class A>
-  void in_housing(const A& arc, double begin, double length) {
-    if (loose_) loose_->in_housing(arc, begin, length);
-  }
-  template <class A>
-  void hold(const A&, const motion::Rest& hold) {
-    if (loose_) loose_->hold(hold);
-  }
-  void strike(const motion::Strike& strike) {
-    impact(strike.of_main());
-    if (loose_) loose_->strike(strike);
+  void event(const motion::Event& event) {
+    if (loose_) loose_->event(event);
+    if (samples_) return samples_->event(event.of_main());
+    bounced_ = bounced_ || event.of_main().kind == motion::Event::Kind::impact;
   }
   /// Takes the state of the steady response, whose period is that of the force.
   bool response(const ObservedSpan& span, double) {

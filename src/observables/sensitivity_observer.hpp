@@ -33,53 +33,23 @@ class Sensitivity::Observer {
     if constexpr (!motion::Polynomial<A>) {  // of general methods there are none
       if (!is_sought_) return;
       stability_.arc(arc, begin, length);
-      if (is_housed_) return housing_.push_back({arc.start(), arc.anchor(), begin, length});
+      if constexpr (motion::Housed<A>)
+        return housing_.push_back(stretch_of(arc.loose, {arc.start(), arc.anchor(), begin, length}));
       // the sign of the friction, of 0 too, is against the velocity
       const Side ahead = std::signbit(arc.constants().friction) ? Side::upper : Side::lower;
       course_.push_back({arc.start(), arc.anchor(), begin, length, Side::none, ahead});
       if constexpr (A::effects.stiffness) course_.back().pressed = arc.constants().stop.side;
     }
   }
-  void rest(const motion::Rest& rest) {
+  void event(const motion::Event& event) {
     if (!is_sought_) return;
-    stability_.rest(rest);
-    const motion::Event event = event_of(rest);
-    if (rest.is_stick() && !course_.empty() && !course_.back().end) end_with(event);
+    stability_.event(event);
+    if (is_housed_) return end_housed(event);
+    if (!event.lasts()) return end_with(event);
+    if (event.is_stick() && !course_.empty() && !course_.back().end) end_with(event);
     motion::Motion<double> place{};
-    place.x = rest.position;
-    course_.push_back({place, rest.position, rest.time, rest.length, Side::none, Side::none, event});
-  }
-  void reversal(const motion::Reversal& reversal) {
-    if (is_sought_) stability_.reversal(reversal), end_with(event_of(reversal));
-  }
-  void impact(const motion::Impact& impact) {
-    if (is_sought_) stability_.impact(impact), end_with(event_of(impact));
-  }
-  void touch(const motion::Touch& touch) {
-    if (is_sought_) stability_.touch(touch), end_with(event_of(touch));
-  }
-  void separate(const motion::Separation& separation) {
-    if (is_sought_) end_with(event_of(separation));
-  }
-
-  /// A loose mass in its housing, along the arc that was shown last.
-  template <Effects E>
-  void in_housing(const motion::RelativeArc<double, E>& arc, double begin, double length) {
-    if (!is_sought_) return;
-    stability_.in_housing(arc, begin, length);
-    housing_.back().loose = {arc.anchor(), arc.start().offset, arc.start().v, arc.velocity(0.0)};
-  }
-  template <class A>
-  void hold(const A&, const motion::Rest& hold) {
-    if (is_sought_ && !housing_.empty()) housing_.back().held = hold.side;
-  }
-  void strike(const motion::Strike& strike) {
-    if (is_sought_) stability_.strike(strike), housing_.back().struck = strike.side;
-  }
-  void press(const motion::Press& press) {
-    if (!is_sought_) return;
-    stability_.press(press);
-    if (!housing_.empty()) housing_.back().comes_to_rest = true;
+    place.x = event.place;
+    course_.push_back({place, event.place, event.time, event.length, Side::none, Side::none, event});
   }
 
   /// Whether a derivative that is sought doesn't exist, since the motion grazes a stop.
@@ -93,6 +63,21 @@ class Sensitivity::Observer {
   [[nodiscard]] double evaluations() const { return stability_.evaluations(); }  ///< of arcs
 
  private:
+  template <Effects E>
+  static HousingStretch stretch_of(const motion::RelativeArc<double, E>& loose, HousingStretch of_main) {
+    of_main.loose = {loose.anchor(), loose.start().offset, loose.start().v, loose.velocity(0.0)};
+    return of_main;
+  }
+  static HousingStretch stretch_of(const motion::Pressed& loose, HousingStretch of_main) {
+    of_main.held = loose.wall;
+    return of_main;
+  }
+  /// A loose mass strikes a wall, or comes to rest on it.
+  void end_housed(const motion::Event& event) {
+    if (housing_.empty()) return;
+    if (event.kind == motion::Event::Kind::strike) housing_.back().struck = event.side;
+    if (event.kind == motion::Event::Kind::press) housing_.back().comes_to_rest = true;
+  }
   void end_with(const motion::Event& event) {
     if (!course_.empty()) course_.back().end = event;
   }

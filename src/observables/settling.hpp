@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 #include "observables/observable.hpp"
 
 namespace clatter::observables {
@@ -46,8 +46,7 @@ class Settling::Observer {
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
+  void event(const motion::Event&) {}
   bool response(const ObservedSpan&, double) { return true; }
   [[nodiscard]] Values finish(const ObservedSpan&, double, double) const { return {}; }
 };

@@ -37,41 +37,26 @@ class Stability::Observer {
   template <class A>
   void arc(const A& arc, double begin, double length) {
     ++evaluations_;
+    if constexpr (motion::Housed<A>)
+      if (walls_) walls_->arc(arc, begin, length);
     if (loose_) return loose_->arc(arc, begin, length);
     tangent_.arc(arc, begin, length);
     if constexpr (motion::Polynomial<A>) {
       graze_matters_ = false, rough_.reset();
     } else {
-      if (graze_matters_) nearby_.arc(arc, begin, length);
+      if (graze_matters_) nearby_.arc(motion::main_of(arc), begin, length);
       if (rough_) rough_->arc(arc, begin, length);
     }
   }
-  void rest(const motion::Rest& rest) {
-    tangent_.rest(rest), rests_ = rests_ || !rest.is_stick();
-    if (rough_) rough_->rest(rest);
-  }
-  void reversal(const motion::Reversal& reversal) {
-    tangent_.reversal(reversal);
-    if (rough_) rough_->reversal(reversal);
-  }
-  void impact(const motion::Impact& impact) {
-    tangent_.impact(impact);
-    if (graze_matters_) nearby_.impact(impact);
-    if (first_stop_ == Side::none) first_stop_ = impact.side;
-    if (rough_) rough_->impact(impact);
-  }
-  void touch(const motion::Touch& touch) { tangent_.touch(touch); }
-  void strike(const motion::Strike& strike) {
-    loose_->strike(strike);
-    if (walls_) walls_->strike(strike);
-  }
-  template <class A>
-  void in_housing(const A& arc, double begin, double length) {
-    if (walls_) walls_->in_housing(arc, begin, length);
-  }
-  void press(const motion::Press& press) {
-    loose_->press(press);
-    if (walls_) walls_->press();
+  void event(const motion::Event& event) {
+    if (walls_) walls_->event(event);
+    if (loose_) return loose_->event(event);
+    tangent_.event(event);
+    if (rough_) rough_->event(event);
+    rests_ = rests_ || (event.lasts() && !event.is_stick());
+    if (event.kind != motion::Event::Kind::impact) return;
+    if (graze_matters_) nearby_.event(event);
+    if (first_stop_ == Side::none) first_stop_ = event.side;
   }
 
   /// True if motions that differ from this one by rounding meet other stops. After a rest no difference is left; and

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 #include "observables/observable.hpp"
 
 namespace clatter::observables {
@@ -46,14 +46,15 @@ class TimeToRest::Observer {
   void arc(const A&, double, double length) {
     if (length > 0) since_.reset();
   }
-  /// What isn't held is the end of a chatter, which is motion, or a force that is too low to be told from rest.
-  void rest(const motion::Rest& rest) {
-    if (!rest.held && !since_) return;
-    if (!since_) since_ = rest.time;
-    until_ = rest.time + rest.length;
+  /// A time in which the mass isn't held is the end of a chatter, which is motion, or that of a force too low to be
+  /// told from rest.
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind == Kind::impact || event.kind == Kind::touch || event.kind == Kind::renewal) since_.reset();
+    if (!event.lasts() || event.kind == Kind::hold || (!event.held && !since_)) return;
+    if (!since_) since_ = event.time;
+    until_ = event.end();
   }
-  void impact(const motion::Impact&) { since_.reset(); }
-  void touch(const motion::Touch&) { since_.reset(); }
   /// The steady response moves.
   bool response(const ObservedSpan&, double) { return true; }
 

@@ -21,19 +21,13 @@ class Trajectory::Observer {
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
-    samples_.arc(arc, begin, length);
+    samples_.arc(motion::main_of(arc), begin, length);
+    if constexpr (motion::Housed<A>) loose_->arc(arc, begin, length);
   }
-  void rest(const motion::Rest& rest) { samples_.rest(rest); }
-  void impact(const motion::Impact& impact) { samples_.impact(impact); }
-  template <class A>
-  void in_housing(const A& arc, double begin, double length) {
-    loose_->in_housing(arc, begin, length);
+  void event(const motion::Event& event) {
+    samples_.event(event.of_main());
+    if (loose_) loose_->event(event);
   }
-  template <class A>
-  void hold(const A&, const motion::Rest& hold) {
-    loose_->hold(hold);
-  }
-  void strike(const motion::Strike& strike) { samples_.impact(strike.of_main()), loose_->strike(strike); }
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
     samples_.finish(x, v, span.total, span.periodic);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "math/number.hpp"
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 
 namespace clatter::observables {
 
@@ -28,7 +28,7 @@ class VelocityJumps {
  public:
   VelocityJumps(double frequency, std::size_t highest) : frequency_(frequency), sums_(highest + 1) {}
 
-  void impact(const motion::Impact& impact) {
+  void impact(const motion::Event& impact) {
     const double angle = frequency_ * impact.time;
     over_harmonics<double>(
         impact.after - impact.before, {std::sin(angle), std::cos(angle)}, sums_.size() - 1,

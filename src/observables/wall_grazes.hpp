@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/event.hpp"
+#include "motion/housed_arc.hpp"
 #include "motion/polynomial_in_housing.hpp"
 #include "motion/relative_arc.hpp"
 #include "scene/scene.hpp"
@@ -17,10 +19,24 @@ class WallGrazes {
   WallGrazes(const LooseMass& loose, double rounding)
       : inner_{.lower = loose.lower + rounding, .upper = loose.upper - rounding}, rounding_(rounding) {}
 
+  /// Of the arc of a main mass, what the loose one does meanwhile.
+  template <motion::Housed A>
+  void arc(const A& arc, double, double length) {
+    look_at(arc.loose, length);
+  }
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind == Kind::strike && event.before * event.before <= 2 * std::abs(turning_) * rounding_) grazes_ = true;
+    if (event.kind == Kind::press) grazes_ = false;  // chatter, whose impacts are as slow as they like, is forgotten
+  }
+
+  [[nodiscard]] bool found() const { return grazes_; }
+
+ private:
   /// Looks for a contact with walls that are moved inwards by rounding, clear of the walls that the flight leaves and
   /// meets. A flight that doesn't come clear of them ends in a slow impact.
   template <Effects E>
-  void in_housing(const motion::RelativeArc<double, E>& arc, double, double length) {
+  void look_at(const motion::RelativeArc<double, E>& arc, double length) {
     const motion::Motion<double> first = arc.start(), last = arc.at(length);
     turning_ = last.a;
     const double begin = time_near(first, arc.constants().jerk(arc.main_at(first)), 1),
@@ -32,18 +48,11 @@ class WallGrazes {
   }
   /// Motion by a general method isn't known to rounding.
   template <Effects E>
-  void in_housing(const motion::PolynomialInHousing<E>& arc, double, double length) {
+  void look_at(const motion::PolynomialInHousing<E>& arc, double length) {
     turning_ = arc.at(length).a;
   }
-  void strike(const motion::Strike& strike) {
-    if (strike.before * strike.before <= 2 * std::abs(turning_) * rounding_) grazes_ = true;
-  }
-  /// Chatter, whose impacts are as slow as they like, is forgotten.
-  void press() { grazes_ = false; }
+  void look_at(const motion::Pressed&, double) {}
 
-  [[nodiscard]] bool found() const { return grazes_; }
-
- private:
   [[nodiscard]] bool is_clear(const motion::Motion<double>& m) const {
     return m.x > inner_.lower && m.x < inner_.upper;
   }

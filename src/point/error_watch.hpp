@@ -21,15 +21,12 @@ class ErrorWatch {
     if (held_by_ != Side::none) releases_[index_of(std::exchange(held_by_, Side::none))] = true;
     in_double_.show(arc, [&](const auto& rounded) { growth_.arc(rounded, begin, length); });
   }
-  void rest(const motion::Rest& rest) {
-    if (rest.held && !rest.is_stick()) held_by_ = rest.side;
-    if (rest.held && rest.length < shortest_rest) return;
-    growth_.rest(rest);
-    if (!rest.held) growth_.delay(period_ * epsilon<double>() / static_cast<double>(epsilon<Number>()));
+  void event(const motion::Event& event) {
+    if (event.kind == motion::Event::Kind::rest) held_by_ = event.side;
+    if (event.lasts() && event.held && event.length < shortest_rest) return;
+    growth_.event(event);
+    if (!event.held) growth_.delay(period_ * epsilon<double>() / static_cast<double>(epsilon<Number>()));
   }
-  void impact(const motion::Impact& impact) { growth_.impact(impact); }
-  void touch(const motion::Touch& touch) { growth_.touch(touch); }
-  void reversal(const motion::Reversal& reversal) { growth_.reversal(reversal); }
 
   /// The largest error up to now, relative to the size of the motion.
   [[nodiscard]] double error() const { return growth_.largest() * static_cast<double>(epsilon<Number>()); }

@@ -30,24 +30,11 @@ class MotionRecorder {
       main_ = {end.x, end.v};
     }
   }
-  void rest(const motion::Rest& rest) { add(event_of(rest)), watch.rest(rest); }
-  void impact(const motion::Impact& impact) { add(event_of(impact)), watch.impact(impact); }
-  void reversal(const motion::Reversal& reversal) { add(event_of(reversal)), watch.reversal(reversal); }
-  void touch(const motion::Touch& touch) { add(event_of(touch)), watch.touch(touch); }
-  void separate(const motion::Separation& separation) { watch.separate(separation), add(event_of(separation)); }
-
-  /// A loose mass strikes a wall of its housing, comes to rest on it, and is pressed by it.
-  void strike(const motion::Strike& strike) {
-    add(event_of(strike.in_housing())), watch.strike(strike);
-    if (loose) loose->strike(strike);
-  }
-  void press(const motion::Press& press) {
-    watch.press(press);
-    if (loose) loose->press(press);
-  }
-  template <class A>
-  void hold(const A&, const motion::Rest& hold) {
-    add(event_of(hold));
+  /// An event of a loose mass is kept as one of a mass between stops, a press as the hold that it begins.
+  void event(const motion::Event& event) {
+    if (event.kind != motion::Event::Kind::press) add(event.in_housing());
+    watch.event(event);
+    if (loose) loose->event(event);
   }
 
   void keep_events() { keeps_events_ = true; }

@@ -55,32 +55,18 @@ std::optional<Four<double>> solution(motion::LooseJacobian A, Four<double> b) {
   return b;
 }
 
-/// Shows the derivative of a motion.
-struct Derivative {
-  motion::LooseTangent tangent;
-
-  template <class A>
-  void arc(const A& arc, double begin, double length) {
-    tangent.arc(arc, begin, length);
-  }
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
-  void strike(const motion::Strike& strike) { tangent.strike(strike); }
-  void press(const motion::Press& press) { tangent.press(press); }
-};
-
 /// The identity less the derivative of the map over so many periods, in double.
 template <Effects E>
 std::optional<motion::LooseJacobian> newton_matrix(const Problem& problem, motion::State<double> state,
                                                    std::int64_t periods) {
   stepping::Exact<double, E> integrator(problem, limits_of(problem));
-  Derivative derivative{{problem.oscillator, problem.loose}};
+  motion::LooseTangent derivative(problem.oscillator, problem.loose);
   for (std::int64_t section = 0; section < periods; ++section)
     if (advance_to_section(integrator, state, 0, derivative) != stepping::Outcome::completed) return std::nullopt;
-  motion::LooseJacobian matrix = derivative.tangent.mantissa();
+  motion::LooseJacobian matrix = derivative.mantissa();
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
-      matrix[i][j] = (i == j ? 1.0 : 0.0) - std::ldexp(matrix[i][j], static_cast<int>(derivative.tangent.exponent()));
+      matrix[i][j] = (i == j ? 1.0 : 0.0) - std::ldexp(matrix[i][j], static_cast<int>(derivative.exponent()));
   return matrix;
 }
 

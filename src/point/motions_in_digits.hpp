@@ -8,6 +8,7 @@
 #include "math/double_double.hpp"
 #include "math/wide_functions.hpp"
 #include "motion/tangent_map.hpp"
+#include "motion/together.hpp"
 #include "point/error_watch.hpp"
 #include "point/every_effect.hpp"
 #include "point/fifty_digit_periods.hpp"
@@ -28,6 +29,12 @@ constexpr double trusted = 1e-14;
 /// but once in some 10^5.
 template <class Number>
 constexpr double trusted_of_sections = std::numeric_limits<Number>::digits10 > 40 ? trusted : 1e-21;
+
+/// Whether rounding has left a run's sections what they are.
+template <class Number, Effects E>
+bool is_trusted(const ErrorWatch<Number, E>& watch) {
+  return watch.error() <= trusted_of_sections<Number>;
+}
 
 inline stepping::Limits limits_in_more_digits(const Problem& problem) {
   constexpr double most_impacts = 1e5;  // each takes up to a millisecond
@@ -85,23 +92,13 @@ RestingMotion run_from_release(const Problem& problem, Side side) {
   return motion;
 }
 
-/// Keeps the events of a motion, and watches how far rounding carries it.
-template <class Number, Effects E>
-class WatchedEvents {
+/// Keeps the events of a motion.
+class EventKeeper {
  public:
-  explicit WatchedEvents(const Scene& scene) : watch_(scene) {}
-
   template <class A>
-  void arc(const A& arc, double begin, double length) {
-    watch_.arc(arc, begin, length);
-  }
-  void rest(const motion::Rest& rest) { add(rest), watch_.rest(rest); }
-  void impact(const motion::Impact& impact) { add(impact), watch_.impact(impact); }
-  void touch(const motion::Touch& touch) { add(touch), watch_.touch(touch); }
-  void separate(const motion::Separation& separation) { add(separation); }
-  void reversal(const motion::Reversal& reversal) { add(reversal), watch_.reversal(reversal); }
+  void arc(const A&, double, double) {}
+  void event(const motion::Event& event) { events_.push_back(event); }
 
-  [[nodiscard]] bool is_trusted() const { return watch_.error() <= trusted_of_sections<Number>; }
   /// Those since a time, which becomes 0.
   [[nodiscard]] std::vector<motion::Event> events_since(double begin) const {
     std::vector<motion::Event> events = events_;
@@ -110,12 +107,6 @@ class WatchedEvents {
   }
 
  private:
-  template <class Happened>
-  void add(const Happened& happened) {
-    events_.push_back(event_of(happened));
-  }
-
-  ErrorWatch<Number, E> watch_;
   std::vector<motion::Event> events_{};
 };
 
@@ -127,42 +118,21 @@ std::optional<ReleasedMotion> run_until_released(const Problem& problem, Side si
   auto state = integrator.released_from(side);
   if (!state) return std::nullopt;
   const Number phase = state->phase_turns;
-  WatchedEvents<Number, E> watch(problem);
+  EventKeeper kept;
+  ErrorWatch<Number, E> watch(problem);
+  motion::Together observers(kept, watch);
   auto outcome = stepping::Outcome::completed;
   for (std::int64_t period = 0; period < periods && outcome == stepping::Outcome::completed; ++period)
-    outcome = advance_to_section(integrator, *state, 0, watch);
-  if (outcome == stepping::Outcome::completed) outcome = integrator.advance(*state, phase, 0, watch);
+    outcome = advance_to_section(integrator, *state, 0, observers);
+  if (outcome == stepping::Outcome::completed) outcome = integrator.advance(*state, phase, 0, observers);
   const double release = static_cast<double>(phase) * period_of(problem.oscillator);
   const double end = static_cast<double>(periods) * period_of(problem.oscillator);
-  ReleasedMotion motion{release, watch.events_since(release)};
-  const bool returns = outcome == stepping::Outcome::completed && watch.is_trusted() && !motion.events.empty() &&
+  ReleasedMotion motion{release, kept.events_since(release)};
+  const bool returns = outcome == stepping::Outcome::completed && is_trusted(watch) && !motion.events.empty() &&
                        motion.events.back().kind == motion::Event::Kind::rest && motion.events.back().side == side &&
                        motion.events.back().end() >= end * (1 - 4 * epsilon<double>());
   return returns ? std::optional(std::move(motion)) : std::nullopt;
 }
-
-/// Computes the derivative of a motion, and watches how far rounding carries it.
-template <class Number, Effects E>
-class WatchedDerivative {
- public:
-  explicit WatchedDerivative(const Scene& scene) : tangent_(scene.stops), watch_(scene) {}
-
-  template <class A>
-  void arc(const A& arc, double begin, double length) {
-    tangent_.arc(arc, begin, length), watch_.arc(arc, begin, length);
-  }
-  void rest(const motion::Rest& rest) { tangent_.rest(rest), watch_.rest(rest); }
-  void impact(const motion::Impact& impact) { tangent_.impact(impact), watch_.impact(impact); }
-  void touch(const motion::Touch& touch) { tangent_.touch(touch), watch_.touch(touch); }
-  void reversal(const motion::Reversal& reversal) { tangent_.reversal(reversal), watch_.reversal(reversal); }
-
-  [[nodiscard]] motion::Jacobian<Number> map() const { return tangent_.map(); }
-  [[nodiscard]] bool is_trusted() const { return watch_.error() <= trusted_of_sections<Number>; }
-
- private:
-  motion::TangentMap<Number> tangent_;
-  ErrorWatch<Number, E> watch_;
-};
 
 /// By Newton's method, until a step is below 1e-30 of the state; in 31 digits, which rounding leaves a step of its own,
 /// until the one after a step that was small already, so that only rounding is left.
@@ -178,16 +148,17 @@ std::optional<BasicFixedPoint<typename Integrator::Number>> find_fixed_point(con
   found.start.x = near.x, found.start.v = near.v;
   bool was_small = has_digits_to_spare;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    WatchedDerivative<Number, Integrator::effects> derivative(problem);
-    const auto state = run_periods<Integrator>(problem, found, periods, stopped, derivative);
+    motion::TangentMap<Number> tangent(problem.stops);
+    ErrorWatch<Number, Integrator::effects> watch(problem);
+    motion::Together observers(tangent, watch);
+    const auto state = run_periods<Integrator>(problem, found, periods, stopped, observers);
     if (!state) return std::nullopt;
     const Number dx = state->x - found.start.x, dv = state->v - found.start.v;
     const bool is_small =
         abs(dx) + abs(dv) <= Number(has_digits_to_spare ? 1e-30 : 1e-21) * (abs(state->x) + abs(state->v));
-    if (is_small && was_small)
-      return has_digits_to_spare || derivative.is_trusted() ? std::optional(found) : std::nullopt;
+    if (is_small && was_small) return has_digits_to_spare || is_trusted(watch) ? std::optional(found) : std::nullopt;
     was_small = is_small || has_digits_to_spare;
-    const motion::Jacobian<Number> D = derivative.map();
+    const motion::Jacobian<Number> D = tangent.map();
     const Number determinant = (1 - D[0]) * (1 - D[3]) - D[1] * D[2];
     found.start.x += ((1 - D[3]) * dx + D[1] * dv) / determinant;
     found.start.v += (D[2] * dx + (1 - D[0]) * dv) / determinant;

@@ -16,25 +16,13 @@ class FirstEvent {
  public:
   template <class A>
   void arc(const A&, double, double) {}
-  template <class A>
-  void in_housing(const A&, double, double) {}
-  template <class A>
-  void hold(const A&, const motion::Rest&) {}
-  void rest(const motion::Rest& rest) { see(rest.time); }
-  void impact(const motion::Impact& impact) { see(impact.time); }
-  void touch(const motion::Touch& touch) { see(touch.time); }
-  void separate(const motion::Separation& separation) { see(separation.time); }
-  void reversal(const motion::Reversal& reversal) { see(reversal.time); }
-  void strike(const motion::Strike& strike) { see(strike.time); }
-  void press(const motion::Press& press) { see(press.time); }
+  void event(const motion::Event& event) {
+    if (!time_ && event.kind != motion::Event::Kind::hold) time_ = event.time;
+  }
 
   [[nodiscard]] const std::optional<double>& time() const { return time_; }  ///< tau
 
  private:
-  void see(double time) {
-    if (!time_) time_ = time;
-  }
-
   std::optional<double> time_{};
 };
 

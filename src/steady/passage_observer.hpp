@@ -32,50 +32,27 @@ class PassageObserver {
         passage_.log_area -= 2 * stop.damping * length;
       }
   }
-  void rest(const motion::Rest& rest) {
-    add(rest.is_stick() ? 13 : rest.side == Side::upper ? 4 : 3);
-    if (rest.held) passage_.rested_on = rest.side;
-    see(rest.position, 0.0);
-    passage_.log_area = -std::numeric_limits<double>::infinity();
-    if (differentiates_) tangent_.rest(rest);
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind == Kind::hold) return;
+    passage_.itinerary = with(passage_.itinerary, mark_of(event));
+    if (event.lasts() || event.kind == Kind::press)
+      passage_.log_area = -std::numeric_limits<double>::infinity();
+    else
+      passage_.log_area += log_of_area(event);
+    if (event.lasts() && event.held) passage_.rested_on = event.side;
+    if (event.kind == Kind::strike) {
+      see(event.main.place, event.main.before);
+      passage_.loose_size = std::max({passage_.loose_size, std::abs(event.place), std::abs(event.before)});
+    } else if (event.kind != Kind::separation && event.kind != Kind::press) {
+      see(event.place, event.velocity());
+    }
+    if (differentiates_) tangent_.event(event);
   }
-  void impact(const motion::Impact& impact) {
-    const bool upper = impact.side == Side::upper;
-    add(upper ? 2 : 1);
-    passage_.log_area += upper ? log_upper_ : log_lower_;
-    see(impact.position, impact.before);
-    if (differentiates_) tangent_.impact(impact);
-  }
-
-  /// Of a loose mass: areas are volumes of four numbers, of which a press takes two.
-  void strike(const motion::Strike& strike) {
-    add(strike.side == Side::upper ? 2 : 1);
-    passage_.log_area += 2 * std::log(std::abs(strike.after / strike.before));
-    see(strike.place, strike.v_before);
-    passage_.loose_size = std::max({passage_.loose_size, std::abs(strike.wall), std::abs(strike.before)});
-  }
-  void press(const motion::Press& press) {
-    add(press.side == Side::upper ? 4 : 3);
-    passage_.log_area = -std::numeric_limits<double>::infinity();
-  }
-
-  void reversal(const motion::Reversal& reversal) {
-    add(14);
-    passage_.log_area += std::log(reversal.after / reversal.before);
-    see(reversal.position, 0.0);
-    if (differentiates_) tangent_.reversal(reversal);
-  }
-
-  void touch(const motion::Touch& touch) {
-    add((touch.from_outside ? 5 : 7) + (touch.side == Side::upper));
-    see(touch.position, touch.velocity);
-    if (differentiates_) tangent_.touch(touch);
-  }
-  void separate(const motion::Separation& separation) { add(separation.side == Side::upper ? 10 : 9); }
 
   /// The contact of a period which begins in contact with a soft stop, as long as that goes on.
   [[nodiscard]] static constexpr std::uint64_t itinerary_in_contact(Side side) {
-    return with(0, side == Side::upper ? 12 : 11);
+    return with(0, in_contact + (side == Side::upper));
   }
 
   void begin_section() { passage_ = {}; }
@@ -89,11 +66,47 @@ class PassageObserver {
   [[nodiscard]] motion::Jacobian<double> derivative() const { return tangent_.map(); }
 
  private:
-  [[nodiscard]] static constexpr std::uint64_t with(std::uint64_t itinerary, std::uint64_t event) {
-    return (itinerary + event) * 0x9e3779b97f4a7c15u;
+  /// The mark of an event in an itinerary, > 0. Those of a loose mass and its walls are told as those of a mass and its
+  /// stops: no motion has both.
+  [[nodiscard]] static constexpr std::uint64_t mark_of(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    const std::uint64_t upper = event.side == Side::upper;
+    switch (event.kind) {
+      case Kind::impact:
+      case Kind::strike:
+        return 1 + upper;
+      case Kind::rest:
+      case Kind::chatter:
+      case Kind::press:
+      case Kind::hold:
+        return 3 + upper;
+      case Kind::touch:
+        return 5 + upper;
+      case Kind::renewal:
+        return 7 + upper;
+      case Kind::separation:
+        return 9 + upper;
+      case Kind::stick:
+        return 13;
+      case Kind::reversal:
+        return 14;
+    }
+    return 0;
+  }
+  static constexpr std::uint64_t in_contact = 11;  ///< with a soft stop, the lower one
+
+  /// The logarithm of the factor by which an event at an instant changes areas; of a loose mass they are volumes of
+  /// four numbers, of which a press takes two.
+  [[nodiscard]] double log_of_area(const motion::Event& event) const {
+    using Kind = motion::Event::Kind;
+    if (event.kind == Kind::impact) return event.side == Side::upper ? log_upper_ : log_lower_;
+    if (event.kind == Kind::strike) return 2 * std::log(std::abs(event.after / event.before));
+    return event.kind == Kind::reversal ? std::log(event.a_after / event.a_before) : 0.0;
+  }
+  [[nodiscard]] static constexpr std::uint64_t with(std::uint64_t itinerary, std::uint64_t mark) {
+    return (itinerary + mark) * 0x9e3779b97f4a7c15u;
   }
   void see(double x, double v) { passage_.size = std::max({passage_.size, std::abs(x), std::abs(v)}); }
-  void add(std::uint64_t event) { passage_.itinerary = with(passage_.itinerary, event); }
 
   Stops stops_;
   double log_lower_, log_upper_;  ///< logarithm of R^2, the factor by which an impact shrinks areas

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "motion/event.hpp"
 #include "motion/soft_stop.hpp"
-#include "motion/state.hpp"
 #include "scene/scene.hpp"
 
 namespace clatter::steady {
@@ -28,16 +28,13 @@ class ReturnObserver {
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact& impact) {
-    conserved_ = conserved_ && std::abs(impact.after) == std::abs(impact.before);
-    leave({impact.time, impact.after}, impact.side);
-  }
-  void touch(const motion::Touch&) { touched_ = true; }
-  void separate(const motion::Separation& separation) {
-    const auto stop = motion::soft_stop_at<double>(stops_, separation.side);
-    conserved_ = conserved_ && stop.damping == 0;
-    leave({separation.time, separation.velocity}, separation.side);
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    touched_ = touched_ || event.is_contact();
+    if (event.kind == Kind::impact) conserved_ = conserved_ && std::abs(event.after) == std::abs(event.before);
+    if (event.kind == Kind::separation)
+      conserved_ = conserved_ && motion::soft_stop_at<double>(stops_, event.side).damping == 0;
+    if (event.kind == Kind::impact || event.kind == Kind::separation) leave({event.time, event.after}, event.side);
   }
 
   /// Begins the next period; impacts then count their time from there.
@@ -72,7 +69,6 @@ class ReturnObserver {
   };
 
   void leave(const Leaving& now, Side side) {
-    touched_ = true;
     Leaving& last = last_[index_of(side)];
     const bool again = std::abs(now.velocity - last.velocity) <= tolerance_ * std::abs(now.velocity);
     if (again && now.velocity != 0.0 && !(period_ > 0.0)) period_ = now.time - last.time;

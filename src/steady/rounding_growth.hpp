@@ -25,31 +25,23 @@ class RoundingGrowth {
     size_ = std::max({size_, std::abs(arc.start().x), std::abs(v)});
     take();
   }
-  void rest(const motion::Rest& rest) {
-    if (rest.held && !rest.is_stick()) error_ = {};
-    if (rest.is_stick()) tangent_.rest(rest), take();
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    const bool arrives = event.kind == Kind::impact || event.kind == Kind::touch || event.kind == Kind::renewal;
+    if (event.kind == Kind::rest) error_ = {};
+    if (!arrives && event.kind != Kind::stick && event.kind != Kind::reversal) return;
+    tangent_.event(event);
+    if (arrives)  // with an error of time that is larger the slower it arrives
+      lateness_ = std::abs((event.place - from_) / event.before), from_ = event.place;
+    take();
   }
-  void reversal(const motion::Reversal& reversal) { tangent_.reversal(reversal), take(); }
   /// Adds an error of time, in units of epsilon.
   void delay(double time) { lateness_ += time; }
-  void impact(const motion::Impact& impact) {
-    tangent_.impact(impact);
-    arrive(impact.position, impact.before);
-  }
-  void touch(const motion::Touch& touch) {
-    tangent_.touch(touch);
-    arrive(touch.position, touch.velocity);
-  }
 
   /// The largest error up to now, relative to the size of the motion.
   [[nodiscard]] double largest() const { return largest_ > 0 ? largest_ / size_ : 0.0; }
 
  private:
-  /// A flight ends at a position, with an error of time that is larger the slower it arrives.
-  void arrive(double position, double velocity) {
-    lateness_ = std::abs((position - from_) / velocity), from_ = position;
-    take();
-  }
   /// Carries the errors on over what `tangent_` has seen since it last was done.
   void take() {
     error_ = error_.mapped(tangent_.map());

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "motion/rough_neighbourhood.hpp"
+#include "motion/together.hpp"
 #include "steady/contraction.hpp"
 #include "steady/map_orbit.hpp"
 #include "steady/passage_observer.hpp"
@@ -33,7 +34,7 @@ class StroboscopicMap {
   /// The motion over n periods from a state, reporting also to another observer; nothing if it fails.
   template <class Observer>
   [[nodiscard]] std::optional<MapOrbit> follow(const motion::State<double>& from, std::size_t periods, Observer& also) {
-    Pair<Observer> observers{watch_, also};
+    motion::Together observers(watch_, also);
     return follow_under(observers, from, periods);
   }
   [[nodiscard]] std::optional<MapOrbit> follow(const motion::State<double>& from, std::size_t periods) {
@@ -70,32 +71,6 @@ class StroboscopicMap {
       return advance_to_section(integrator_, state, from.periods, observer);
     });
   }
-
-  /// Two observers of one motion.
-  template <class Observer>
-  struct Pair {
-    PassageObserver& one;
-    Observer& other;
-
-    template <class A>
-    void arc(const A& arc, double begin, double length) {
-      one.arc(arc, begin, length), other.arc(arc, begin, length);
-    }
-    void rest(const motion::Rest& rest) { one.rest(rest), other.rest(rest); }
-    void impact(const motion::Impact& impact) { one.impact(impact), other.impact(impact); }
-    void reversal(const motion::Reversal& reversal) {
-      one.reversal(reversal);
-      if constexpr (requires { other.reversal(reversal); }) other.reversal(reversal);
-    }
-    void touch(const motion::Touch& touch) {
-      one.touch(touch);
-      if constexpr (requires { other.touch(touch); }) other.touch(touch);
-    }
-    void separate(const motion::Separation& separation) {
-      one.separate(separation);
-      if constexpr (requires { other.separate(separation); }) other.separate(separation);
-    }
-  };
 
   [[nodiscard]] bool inside(const motion::State<double>& state) const {
     const Stops stops = rigid_ones(integrator_.stops());

@@ -27,7 +27,7 @@ class EventDriven : public LoosePhases<Method, N, E> {
         chatter_accuracy_(rule.accuracy) {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section (the stroboscopic section of
-  /// `motion::State`), and reports every arc, rest and impact with its time since the section `origin`.
+  /// `motion::State`), and reports every arc and event with its time since the section `origin`.
   template <class Observer>
   [[nodiscard]] Outcome advance(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                 Observer& observer) {

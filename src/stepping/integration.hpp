@@ -21,7 +21,7 @@ struct Limits {
   double periods = std::numeric_limits<double>::infinity();  ///< forcing periods, for the report of progress
 };
 
-/// The method that computes arcs, impacts and rests, and its settings.
+/// The method that computes arcs and events, and its settings.
 struct Integration {
   Method method = Method::exact;
   double tolerance = 1e-10;  ///< dopri5: error of a step, relative to the motion

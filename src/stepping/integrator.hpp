@@ -12,6 +12,7 @@
 
 #include "motion/contact_force.hpp"
 #include "motion/dry_friction.hpp"
+#include "motion/event.hpp"
 #include "scene/scene.hpp"
 #include "stepping/integration.hpp"
 
@@ -21,8 +22,7 @@ namespace clatter::stepping {
 struct NoObserver {
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
+  void event(const motion::Event&) {}
 };
 
 /// The parts common to all integrators: the scene's constants and clock, the work spent so far, and its limits.
@@ -114,6 +114,8 @@ class IntegratorBase {
   }
 
  protected:
+  using Kind = motion::Event::Kind;
+
   /// What may hold a mass at x' = 0: the constant forces there, those of a soft stop included, and the static level.
   [[nodiscard]] motion::Holding<Number> holding_at(const motion::State<Number>& state) const requires(E.friction) {
     motion::Holding<Number> holding{Side::none, constants_.constant_force(state.x), slips_.static_level};
@@ -152,42 +154,42 @@ class IntegratorBase {
   template <class Observer>
   void show_impact(const motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& before,
                    std::int64_t origin, Observer& observer) const {
-    observer.impact(motion::Impact{time(state, origin), stop.side, static_cast<double>(before),
-                                   static_cast<double>(state.v), static_cast<double>(stop.position),
-                                   static_cast<double>(state.phase_turns)});
+    observer.event({Kind::impact, stop.side, time(state, origin), static_cast<double>(before), 0.0,
+                    static_cast<double>(state.v), static_cast<double>(stop.position),
+                    static_cast<double>(state.phase_turns)});
   }
+  /// A contact with a soft stop begins or ends.
   template <class Observer>
-  void show_touch(const motion::State<Number>& state, bool from_outside, std::int64_t origin,
-                  Observer& observer) const {
-    if constexpr (requires { observer.touch(motion::Touch{}); })
-      observer.touch(motion::Touch{time(state, origin), state.within, static_cast<double>(state.v),
-                                   static_cast<double>(state.within == Side::upper ? stops_.upper : stops_.lower),
-                                   from_outside, static_cast<double>(state.phase_turns)});
+  void show_contact(Kind kind, const motion::State<Number>& state, Side side, std::int64_t origin,
+                    Observer& observer) const {
+    const double v = static_cast<double>(state.v);
+    observer.event({kind, side, time(state, origin), v, 0.0, v,
+                    static_cast<double>(side == Side::upper ? stops_.upper : stops_.lower),
+                    static_cast<double>(state.phase_turns)});
   }
-  template <class Observer>
-  void show_separation(const motion::State<Number>& state, Side side, std::int64_t origin, Observer& observer) const {
-    if constexpr (requires { observer.separate(motion::Separation{}); })
-      observer.separate(motion::Separation{time(state, origin), side, static_cast<double>(state.v)});
-  }
+  /// A mass stays where it is: on a stop, or by friction alone.
   template <class Observer>
   void show_rest(const motion::State<Number>& state, Side side, const Number& turns, bool held, std::int64_t origin,
                  Observer& observer) const {
-    observer.rest(motion::Rest{time(state, origin), static_cast<double>(turns * constants_.period), side,
-                               static_cast<double>(state.x), held});
+    const Kind kind = side == Side::none ? Kind::stick : held ? Kind::rest : Kind::chatter;
+    observer.event({kind, side, time(state, origin), 0.0, static_cast<double>(turns * constants_.period), 0.0,
+                    static_cast<double>(state.x), 0.0, held});
   }
   template <class Observer>
   void show_reversal(const motion::State<Number>& state, const Number& before, const Number& after, std::int64_t origin,
                      Observer& observer) const {
-    if constexpr (requires { observer.reversal(motion::Reversal{}); })
-      observer.reversal(motion::Reversal{time(state, origin), static_cast<double>(state.x), static_cast<double>(before),
-                                         static_cast<double>(after)});
+    observer.event({.kind = Kind::reversal,
+                    .time = time(state, origin),
+                    .place = static_cast<double>(state.x),
+                    .a_before = static_cast<double>(before),
+                    .a_after = static_cast<double>(after)});
   }
   template <class Observer>
   void show_chatter(const motion::State<Number>& begin, const motion::Stop<Number>& stop, const Number& turns,
                     const Number& v_end, std::int64_t origin, Observer& observer) const {
-    observer.rest(motion::Rest{time(begin, origin), static_cast<double>(turns * constants_.period), stop.side,
-                               static_cast<double>(stop.position), false, static_cast<double>(begin.v),
-                               static_cast<double>(v_end)});
+    observer.event({Kind::chatter, stop.side, time(begin, origin), static_cast<double>(begin.v),
+                    static_cast<double>(turns * constants_.period), static_cast<double>(v_end),
+                    static_cast<double>(stop.position), 0.0, false});
   }
 
  private:
@@ -207,7 +209,7 @@ class IntegratorBase {
   double next_report_ = infinity;  ///< evaluations
 };
 
-/// Advances a state to a phase and reports arcs, impacts and rests on the way to an observer. Observers don't depend on
+/// Advances a state to a phase and reports arcs and events on the way to an observer. Observers don't depend on
 /// the integrator, nor integrators on the observables.
 template <class I>
 concept Integrator = requires(I& integrator, motion::State<typename I::Number>& state, const typename I::Number& end,

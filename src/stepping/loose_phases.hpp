@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "motion/housed_arc.hpp"
 #include "motion/relative_arc.hpp"
 #include "motion/walls.hpp"
 #include "stepping/soft_phases.hpp"
@@ -35,6 +36,8 @@ class LoosePhases : public SoftPhases<Method, N, E> {
   }
 
  private:
+  using typename Base::Kind;
+
   /// The acceleration z'' with which a loose mass is driven into a wall that it is on.
   [[nodiscard]] Number into(Side side, const motion::State<Number>& state) const {
     return sign_of(side) * (walls_.load - this->motion(this->constants(), state, walls_.load).a);
@@ -67,14 +70,21 @@ class LoosePhases : public SoftPhases<Method, N, E> {
     return w <= faded() * extent(state) || 2 * w <= pressing * epsilon<Number>() * this->period();
   }
 
+  /// The main mass at an event, before which it had the velocity `before`.
+  [[nodiscard]] static motion::Event::Main main_at(const motion::State<Number>& state, const Number& before) {
+    return {static_cast<double>(state.x), static_cast<double>(before), static_cast<double>(state.v)};
+  }
   template <class Observer>
   void press(motion::State<Number>& state, Side side, const Number& w, std::int64_t origin, Observer& observer) const {
     const Number before = state.v;
     state.v = walls_.rule.main_with(state.v, w);
     state.loose = {side, Number(0), Number(0), true}, state.released = false;
-    if constexpr (requires { observer.press(motion::Press{}); })
-      observer.press(motion::Press{this->time(state, origin), side, static_cast<double>(w), static_cast<double>(before),
-                                   static_cast<double>(state.v), static_cast<double>(state.x)});
+    observer.event({.kind = Kind::press,
+                    .side = side,
+                    .time = this->time(state, origin),
+                    .before = static_cast<double>(w),
+                    .place = static_cast<double>(walls_.place(side)),
+                    .main = main_at(state, before)});
   }
 
   /// Moves on as one mass until the wall would have to pull.
@@ -125,9 +135,9 @@ class LoosePhases : public SoftPhases<Method, N, E> {
       if (!crossing.resolved) return crossing;
       const double begin = this->time(state, origin), length = static_cast<double>(crossing.elapsed);
       const Side side = state.loose.wall;
-      observer.arc(flight.arc, begin, length);
-      if constexpr (requires { observer.hold(flight.arc, motion::Rest{}); })
-        observer.hold(flight.arc, motion::Rest{begin, length, side, static_cast<double>(walls_.place(side)), true});
+      const double place = static_cast<double>(walls_.place(side));
+      observer.arc(motion::HousedArc{flight.arc, motion::Pressed{side, place}}, begin, length);
+      observer.event({Kind::hold, side, begin, 0.0, length, 0.0, place});
       go_on(state, crossing.elapsed, crossing.motion, end);
       return crossing;
     });
@@ -155,8 +165,7 @@ class LoosePhases : public SoftPhases<Method, N, E> {
       return wait(state, w, end, origin, observer);
     }
     const double begin = this->time(state, origin), length = static_cast<double>(contact.elapsed);
-    observer.arc(arc.main(), begin, length);
-    if constexpr (requires { observer.in_housing(arc, begin, length); }) observer.in_housing(arc, begin, length);
+    observer.arc(motion::HousedArc{arc.main(), arc}, begin, length);
     move_loose(state.loose, contact);
     go_on(state, contact.elapsed, arc.main().at(contact.elapsed), end);
     if (contact.side == Side::none) return Outcome::completed;
@@ -187,11 +196,14 @@ class LoosePhases : public SoftPhases<Method, N, E> {
     const Number before = state.v, after = walls_.rule.law.after(w);
     state.v = walls_.rule.main_after(state.v, w);
     state.loose = {side, Number(0), after};
-    if constexpr (requires { observer.strike(motion::Strike{}); })
-      observer.strike(motion::Strike{this->time(state, origin), side, static_cast<double>(w),
-                                     static_cast<double>(after), static_cast<double>(walls_.place(side)),
-                                     static_cast<double>(before), static_cast<double>(state.v),
-                                     static_cast<double>(state.x), static_cast<double>(state.phase_turns)});
+    observer.event({.kind = Kind::strike,
+                    .side = side,
+                    .time = this->time(state, origin),
+                    .before = static_cast<double>(w),
+                    .after = static_cast<double>(after),
+                    .place = static_cast<double>(walls_.place(side)),
+                    .turns = static_cast<double>(state.phase_turns),
+                    .main = main_at(state, before)});
     if (is_faded(state, -sign_of(side) * after, into(side, state))) press(state, side, after, origin, observer);
     return this->count_impact() ? Outcome::completed : Outcome::event_budget;
   }

@@ -37,8 +37,8 @@ class Moreau : public ThetaSteps<E> {
   explicit Moreau(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
       : Base(scene, integration, limits) {}
 
-  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and reports every step's arcs,
-  /// rests and impacts with their times since the section `origin`.
+  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and reports every step's arcs
+  /// and events with their times since the section `origin`.
   template <class Observer>
   [[nodiscard]] Outcome advance(motion::State<double>& state, double end, std::int64_t origin, Observer& observer) {
     sine_ = this->phase(state).sine;
@@ -53,6 +53,8 @@ class Moreau : public ThetaSteps<E> {
   }
 
  private:
+  using typename Base::Kind;
+
   /// Takes the impact of a mass that is on a stop and moves into it, as only a start can, before any time passes; false
   /// if it is one too many.
   template <class Observer>
@@ -116,9 +118,9 @@ class Moreau : public ThetaSteps<E> {
     const bool was_pressed = state.pressed;
     look_beyond(state, length / 2);
     const bool goes_on = was_pressed && state.pressed && was_within == state.within;
-    if (was_pressed && !goes_on) this->show_separation(state, was_within, origin, observer);
+    if (was_pressed && !goes_on) this->show_contact(Kind::separation, state, was_within, origin, observer);
     if (!state.pressed || goes_on) return true;
-    this->show_touch(state, was_within != state.within, origin, observer);
+    this->show_contact(was_within != state.within ? Kind::touch : Kind::renewal, state, state.within, origin, observer);
     return this->count_impact();
   }
 

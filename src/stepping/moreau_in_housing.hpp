@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "motion/housed_arc.hpp"
 #include "motion/polynomial_in_housing.hpp"
 #include "motion/walls.hpp"
 #include "stepping/theta_steps.hpp"
@@ -27,8 +28,8 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
   explicit Moreau(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
       : Base(scene, integration, limits), walls_(this->constants(), scene.loose) {}
 
-  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and reports every step's arcs,
-  /// presses and impacts with their times since the section `origin`.
+  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and reports every step's arcs
+  /// and events with their times since the section `origin`.
   template <class Observer>
   [[nodiscard]] Outcome advance(motion::State<double>& state, double end, std::int64_t origin, Observer& observer) {
     this->sine_ = this->phase(state).sine;
@@ -43,7 +44,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
 
  private:
   using StepEnd = typename Base::StepEnd;
-  using Housing = motion::PolynomialInHousing<E.arc()>;
+  using typename Base::Kind;
 
   /// A loose mass: z = origin + offset, and z'.
   struct Loose {
@@ -101,12 +102,10 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
     const double way = this->way(length, state.v, v_end), offset = loose.offset + this->way(length, loose.w, w_end);
     const auto main = this->arc(this->constants(), state.x, state.phase_turns, length,
                                 cubic(length, {0.0, state.v}, {way, v_end}), this->ramp(length, state.v, v_end));
-    observer.arc(main, this->time(state, origin), length);
-    if constexpr (requires(const Housing& arc) { observer.in_housing(arc, 0.0, 0.0); }) {
-      const Housing arc(main, loose.origin, walls_.load, cubic(length, {loose.offset, loose.w}, {offset, w_end}),
-                        this->ramp(length, loose.w, w_end));
-      observer.in_housing(arc, this->time(state, origin), length);
-    }
+    const motion::PolynomialInHousing in_housing(main, loose.origin, walls_.load,
+                                                 cubic(length, {loose.offset, loose.w}, {offset, w_end}),
+                                                 this->ramp(length, loose.w, w_end));
+    observer.arc(motion::HousedArc{main, in_housing}, this->time(state, origin), length);
     state.x += way, state.v = v_end;
     move_loose(state, offset, w_end);
   }
@@ -134,9 +133,8 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
     const Side side = state.loose.wall;
     const auto arc = this->arc(constants, state.x, state.phase_turns, length,
                                cubic(length, {0.0, state.v}, {way, v_end}), this->ramp(length, state.v, v_end));
-    observer.arc(arc, begin, length);
-    if constexpr (requires { observer.hold(arc, motion::Rest{}); })
-      observer.hold(arc, motion::Rest{begin, length, side, walls_.place(side), true});
+    observer.arc(motion::HousedArc{arc, motion::Pressed{side, walls_.place(side)}}, begin, length);
+    observer.event({Kind::hold, side, begin, 0.0, length, 0.0, walls_.place(side)});
     state.x += way, state.v = v_end;
   }
 
@@ -175,16 +173,24 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
                             std::int64_t origin, Observer& observer) {
     const double v_before = state.v;
     state.v = v_after, state.loose = {side, 0.0, after + 0.0};  // no negative zero
-    if constexpr (requires { observer.strike(motion::Strike{}); })
-      observer.strike(motion::Strike{this->time(state, origin), side, before, state.loose.speed, walls_.place(side),
-                                     v_before, v_after, state.x, state.phase_turns});
+    observer.event({.kind = Kind::strike,
+                    .side = side,
+                    .time = this->time(state, origin),
+                    .before = before,
+                    .after = state.loose.speed,
+                    .place = walls_.place(side),
+                    .turns = state.phase_turns,
+                    .main = {state.x, v_before, v_after}});
     return this->count_impact();
   }
   template <class Observer>
   void press(motion::State<double>& state, Side side, std::int64_t origin, Observer& observer) const {
     state.loose = {side, 0.0, 0.0, true};
-    if constexpr (requires { observer.press(motion::Press{}); })
-      observer.press(motion::Press{this->time(state, origin), side, 0.0, state.v, state.v, state.x});
+    observer.event({.kind = Kind::press,
+                    .side = side,
+                    .time = this->time(state, origin),
+                    .place = walls_.place(side),
+                    .main = {state.x, state.v, state.v}});
   }
 
   motion::Walls<double> walls_;

@@ -19,6 +19,8 @@ class SoftPhases : public Flights<Method, N, E> {
       : Base(scene, in_reach, limits), soft_stops_(has_soft_stop(scene.stops)) {}
 
  protected:
+  using typename Base::Kind;
+
   [[nodiscard]] bool has_soft_stops() const { return soft_stops_; }
 
   /// The soft stop beyond whose position the mass is.
@@ -44,7 +46,7 @@ class SoftPhases : public Flights<Method, N, E> {
     state.from_stop = side, state.offset = 0;
     if (state.v == 0) return Outcome::completed;
     state.within = side, state.pressed = true;
-    this->show_touch(state, true, origin, observer);
+    this->show_contact(Kind::touch, state, side, origin, observer);
     return this->count_impact() ? Outcome::completed : Outcome::event_budget;
   }
   /// Presses a mass without speed into the soft stop that it is on, if the force does so.
@@ -83,7 +85,7 @@ class SoftPhases : public Flights<Method, N, E> {
     if (crossing.resolved && crossing.margin == 0) leave(state, stop);
     if (crossing.resolved && crossing.margin == 1) {
       state.pressed = true;
-      this->show_touch(state, false, origin, observer);
+      this->show_contact(Kind::renewal, state, stop.side, origin, observer);
       if (!this->count_impact()) return Outcome::event_budget;
     }
     return this->outcome_at(crossing);
@@ -99,7 +101,7 @@ class SoftPhases : public Flights<Method, N, E> {
   void separate(motion::State<Number>& state, const motion::SoftStop<Number>& stop, std::int64_t origin,
                 Observer& observer) const {
     state.pressed = false;
-    this->show_separation(state, stop.side, origin, observer);
+    this->show_contact(Kind::separation, state, stop.side, origin, observer);
     if (stop.damping == 0 || !(stop.into(state.offset) > 0)) leave(state, stop);
   }
   /// Leaves the region beyond a soft stop's position.

@@ -195,7 +195,7 @@ TEST(Comparison, takes_the_stops_apart) {
   EXPECT_NEAR(errors.time, 0.3, 1e-15);
   Events faster = both;
   for (Event& event : faster)
-    if (event.side == Side::lower) event.velocity = 0.6;
+    if (event.side == Side::lower) event.before = 0.6;
   EXPECT_NEAR(compare(faster, both, any).speed, 0.1, 1e-15);  // over the largest speed on either stop
 }
 

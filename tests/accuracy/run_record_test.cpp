@@ -166,8 +166,8 @@ TEST(PeriodicReference, has_the_impacts_and_rests_of_the_steady_motion_in_double
     ASSERT_TRUE(reference);
     EXPECT_EQ(count(*reference, Event::Kind::rest), rests) << "a section that lies in one cuts it in two";
     std::vector<Event> events;
-    for (const motion::Impact& impact : steady.record.impacts) events.push_back(event_of(impact));
-    for (const motion::Rest& rest : steady.record.rests) events.push_back(event_of(rest));
+    events = steady.record.impacts;
+    events.insert(events.end(), steady.record.rests.begin(), steady.record.rests.end());
     std::ranges::stable_sort(events, {}, &Event::time);
     const ContactErrors errors = compare(events, reference->events, reference->duration / 2);
     EXPECT_EQ(errors.missed + errors.extra + errors.rests_missed, 0u);

@@ -124,8 +124,10 @@ std::string words(const Effects& effects) {
 }
 
 struct CountRests : stepping::NoObserver {
-  void rest(const motion::Rest& stretch) { rests += stretch.held ? 1 : 0; }
-  void press(const motion::Press&) { ++rests; }
+  void event(const motion::Event& event) {
+    const bool is_hold = event.kind == motion::Event::Kind::hold;
+    rests += (event.lasts() && event.held && !is_hold) || event.kind == motion::Event::Kind::press ? 1 : 0;
+  }
   double rests = 0;
 };
 

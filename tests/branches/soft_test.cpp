@@ -37,9 +37,7 @@ struct Differentiating {
   void arc(const A& arc, double begin, double length) {
     map.arc(arc, begin, length);
   }
-  void rest(const motion::Rest& rest) { map.rest(rest); }
-  void impact(const motion::Impact& impact) { map.impact(impact); }
-  void touch(const motion::Touch& touch) { map.touch(touch); }
+  void event(const motion::Event& event) { map.event(event); }
 };
 
 std::optional<Round> round_of(const point::Problem& given, const BranchPoint& point, double aside = 0.0) {

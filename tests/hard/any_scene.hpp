@@ -9,6 +9,7 @@
 #include "point/problem.hpp"
 #include "steady/find_steady.hpp"
 #include "support/random.hpp"
+#include "support/told.hpp"
 
 namespace clatter::hard {
 
@@ -84,14 +85,11 @@ inline Start any_start(support::Random& random, const Stops& stops) {
   return {index, scene, scene.time.duration};
 }
 
-/// An observer of a run from one stroboscopic section to the next; times count from the last section.
+/// An observer of a run from one stroboscopic section to the next; times count from the last section. Those that derive
+/// have functions for the events that they ask for, as `support::Told` calls them.
 struct Watcher {
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
-  void touch(const motion::Touch&) {}
-  void separate(const motion::Separation&) {}
   void section(const motion::State<double>&) {}  ///< the end of a section, and of the run
 };
 
@@ -99,8 +97,9 @@ struct Watcher {
 template <class Integrator, class W>
 [[nodiscard]] stepping::Outcome watch(Integrator& integrator, motion::State<double>& state, double duration,
                                       W& watcher) {
+  support::Told told(watcher);
   for (double turns = duration / integrator.period(); turns > 0; turns -= 1) {
-    const stepping::Outcome outcome = integrator.advance(state, std::min(turns, 1.0), state.periods, watcher);
+    const stepping::Outcome outcome = integrator.advance(state, std::min(turns, 1.0), state.periods, told);
     if (outcome != stepping::Outcome::completed) return outcome;
     watcher.section(state);
     if (turns >= 1) state.phase_turns = 0, ++state.periods;

@@ -192,12 +192,11 @@ struct Listener : Watcher {
   std::vector<SlideEvent> events{};
   double passed = 0;  ///< time of the last section
 
-  void strike(const motion::Strike& s) {
+  void strike(const motion::Event& s) {
     const Real time = Real(passed) + s.time;
-    events.push_back({Kind::impact, s.side, time, s.before, time, s.place, s.v_before, s.v_after});
+    events.push_back({Kind::impact, s.side, time, s.before, time, s.main.place, s.main.before, s.main.after});
   }
-  template <class A>
-  void hold(const A&, const motion::Rest& rest) {
+  void hold(const motion::Event& rest) {
     const Real time = Real(passed) + rest.time;
     events.push_back({Kind::rest, rest.side, time, 0, time + rest.length});
   }
@@ -215,8 +214,9 @@ struct Told {
     stepping::Exact<double, effects> integrator(any.scene, limits_of(any.scene));
     motion::State<double> state = point::start_of(any.scene);
     Listener listener;
+    support::Told told(listener);
     for (double turns = any.duration / integrator.period(); turns > 0; turns -= 1) {
-      outcome = integrator.advance(state, std::min(turns, 1.0), state.periods, listener);
+      outcome = integrator.advance(state, std::min(turns, 1.0), state.periods, told);
       if (outcome != stepping::Outcome::completed) break;
       if (turns >= 1) state.phase_turns = 0, ++state.periods, listener.passed += integrator.period();
     }

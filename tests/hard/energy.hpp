@@ -37,14 +37,14 @@ class EnergyBooks : public Watcher {
     };
     gain(integral(arc, length, 2 * arc.constants().rate, power, size), size);
   }
-  void impact(const motion::Impact& impact) {
-    meet(impact.position, impact.before);
+  void impact(const motion::Event& impact) {
+    meet(impact.place, impact.before);
     const double loss = (impact.before - impact.after) * (impact.before + impact.after) / 2;
     gain(-loss, loss);
     rebound_ = impact.after;
   }
-  void rest(
-      const motion::Rest&) {  // a completed chatter takes the energy of its last rebound, which is 0 before other rests
+  /// A completed chatter takes the energy of its last rebound, which is 0 before other rests.
+  void rest(const motion::Event&) {
     const double left = rebound_ * rebound_ / 2;
     gain(-left, left);
     rebound_ = 0;

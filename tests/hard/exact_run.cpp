@@ -9,6 +9,7 @@
 #include "point/every_effect.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
+#include "support/told.hpp"
 
 namespace clatter::hard {
 namespace {
@@ -71,16 +72,16 @@ class Recorder {
     extrema_.add(arc, FiftyDigits(length));
     if constexpr (std::is_same_v<A, FreeArc>) flight_ = arc, flight_begin_ = now();
   }
-  void impact(const motion::Impact& impact) {
+  void impact(const motion::Event& impact) {
     const FiftyDigits time = now();
     add({Kind::impact, impact.side, time, flight_->at(time - flight_begin_).v});
     events_.back().low = is_low(impact.side);
   }
-  void touch(const motion::Touch& touch) {
-    add({touch.from_outside ? Kind::touch : Kind::renewal, touch.side, now(), state_.v});
+  void touch(const motion::Event& touch) {
+    add({touch.kind == motion::Event::Kind::touch ? Kind::touch : Kind::renewal, touch.side, now(), state_.v});
   }
-  void separate(const motion::Separation& separation) { add({Kind::separation, separation.side, now(), state_.v}); }
-  void rest(const motion::Rest& rest) {
+  void separate(const motion::Event& separation) { add({Kind::separation, separation.side, now(), state_.v}); }
+  void rest(const motion::Event& rest) {
     end_stay();
     const Side side = rest.side;
     const auto is_last = [&](Kind kind) {
@@ -154,7 +155,8 @@ ExactRun run_with(const Case& one) {
   state.x = one.scene.start.displacement, state.v = one.scene.start.velocity;
   Recorder<Integrator> recorder(one.scene, integrator, state);
   const FiftyDigits turns = FiftyDigits(one.duration) / integrator.period();
-  if (run_for(integrator, state, turns, recorder) != stepping::Outcome::completed)
+  support::Told told(recorder);
+  if (run_for(integrator, state, turns, told) != stepping::Outcome::completed)
     throw std::runtime_error(one.row + ", " + one.what + ": the run in 50 digits isn't completed");
   return recorder.finish();
 }

@@ -44,16 +44,16 @@ class GroundCheck : public Watcher {
     const auto most = static_cast<double>(std::max(std::abs(to.w), std::abs(from.w)));
     raise(energy, std::abs(growth - work) / (1e-12 * (size + most * most) + 2 * fast_ * most));
   }
-  void rest(const motion::Rest& rest) {
+  void rest(const motion::Event& rest) {
     if (!rest.held) return;
     ++rests;
     constexpr int looks = 16;
     const auto& [h, f, nu, load, k] = oscillator_;
-    const double size = std::abs(f) + std::abs(load) + std::abs(k * rest.position) +
-                        std::abs(b_) * (std::abs(k) + 2 * h * nu + nu * nu);
+    const double size =
+        std::abs(f) + std::abs(load) + std::abs(k * rest.place) + std::abs(b_) * (std::abs(k) + 2 * h * nu + nu * nu);
     for (int i = 0; i <= looks; ++i) {
       const double time = rest.time + rest.length * i / looks;
-      const motion::Motion<double> m{.offset = 0, .x = rest.position, .v = 0, .a = 0, .sine = 0, .cosine = 0};
+      const motion::Motion<double> m{.offset = 0, .x = rest.place, .v = 0, .a = 0, .sine = 0, .cosine = 0};
       const double acceleration = -b_ * nu * nu * std::sin(angle(time));
       const double pressing = sign_of(rest.side) * (force(m, {}, time) - acceleration);
       raise(pressed, -pressing / (64 * epsilon<double>() * size));

@@ -22,8 +22,8 @@ class BeyondStops : public Watcher {
     look(arc, length);
     flight_ = scale_;
   }
-  void impact(const motion::Impact&) { flight_ = 0; }
-  void rest(const motion::Rest&) { flight_ = 0; }
+  void impact(const motion::Event&) { flight_ = 0; }
+  void rest(const motion::Event&) { flight_ = 0; }
 
   [[nodiscard]] double ulps() const { return ulps_; }
 
@@ -58,11 +58,11 @@ class ToldPlaces : public Watcher {
  public:
   explicit ToldPlaces(const Stops& stops) : stops_(rigid_ones(stops)) {}
 
-  void rest(const motion::Rest& rest) {
-    right_ = right_ && rest.position == (rest.side == Side::upper ? stops_.upper : stops_.lower);
+  void rest(const motion::Event& rest) {
+    right_ = right_ && rest.place == (rest.side == Side::upper ? stops_.upper : stops_.lower);
   }
-  void impact(const motion::Impact& impact) {
-    right_ = right_ && impact.position == (impact.side == Side::upper ? stops_.upper : stops_.lower);
+  void impact(const motion::Event& impact) {
+    right_ = right_ && impact.place == (impact.side == Side::upper ? stops_.upper : stops_.lower);
   }
   void section(const motion::State<double>& state) { see(state.x); }
   void see(double x) { right_ = right_ && x >= stops_.lower && x <= stops_.upper; }

@@ -18,10 +18,10 @@ struct Drift {
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact& impact) {
-    slowest = std::min(slowest, std::abs(impact.before)), fastest = std::max(fastest, std::abs(impact.before));
-    last = impact.time, ++count;
+  void event(const motion::Event& event) {
+    if (event.kind != motion::Event::Kind::impact) return;
+    slowest = std::min(slowest, event.speed()), fastest = std::max(fastest, event.speed());
+    last = event.time, ++count;
   }
 };
 

@@ -33,7 +33,7 @@ class Penetration : public Watcher {
     const double depth = deepest(arc, length, stop);
     raise(over_, depth / limit_), deep_ = deep_ || depth > limit_ / 2;
   }
-  void touch(const motion::Touch& touch) { side_ = touch.from_outside ? Side::none : side_; }
+  void touch(const motion::Event& touch) { side_ = touch.kind == motion::Event::Kind::touch ? Side::none : side_; }
 
   [[nodiscard]] double over() const { return over_; }   ///< depth over the limit
   [[nodiscard]] bool is_deep() const { return deep_; }  ///< more than half of the limit

@@ -38,17 +38,17 @@ struct Period : Watcher {
       if (k == 0) size += part / total;
     }
   }
-  void rest(const motion::Rest& rest) { rests = true, by_parts.rest(rest); }
-  void impact(const motion::Impact& impact) { impacts.push_back(impact), books.impact(impact); }
+  void rest(const motion::Event& rest) { rests = true, by_parts.event(rest); }
+  void impact(const motion::Event& impact) { impacts.push_back(impact), books.impact(impact); }
   /// Whether an impact is so soft that its speed is known to the square root of rounding.
   [[nodiscard]] bool grazes() const {
     return std::any_of(impacts.begin(), impacts.end(),
-                       [&](const motion::Impact& i) { return std::abs(i.before) < 1e-6 * size; });
+                       [&](const motion::Event& i) { return std::abs(i.before) < 1e-6 * size; });
   }
   /// The largest of a displacement and velocity and of the impacts' velocities.
   [[nodiscard]] double fastest(const motion::State<double>& state) const {
     double largest = std::max(std::abs(state.x), std::abs(state.v));
-    for (const motion::Impact& impact : impacts) largest = std::max(largest, std::abs(impact.before));
+    for (const motion::Event& impact : impacts) largest = std::max(largest, std::abs(impact.before));
     return largest;
   }
   void finish(const motion::State<double>& state) { by_parts.finish(state.x, total), books.section(state); }
@@ -57,7 +57,7 @@ struct Period : Watcher {
   observables::ExactHarmonics by_parts;
   std::array<Complex, highest + 1> by_quadrature{};
   EnergyBooks books;
-  std::vector<motion::Impact> impacts{};
+  std::vector<motion::Event> impacts{};
   double total, size = 0;  ///< mean of |x|
   bool rests = false;
 };
@@ -72,7 +72,7 @@ Shares shares_of(const point::Problem& scene, const Period& period, std::size_t 
   const auto& [h, f, nu, load, stiffness] = scene.oscillator;
   Shares shares{k == 0 ? Complex(load) : k == 1 ? f * std::polar(0.5, scene.start.phase - std::numbers::pi / 2) : 0, 0};
   shares.size = std::abs(shares.sum);
-  for (const motion::Impact& impact : period.impacts) {
+  for (const motion::Event& impact : period.impacts) {
     const double jump = (impact.after - impact.before) / period.total;
     shares.sum += jump * std::polar(1.0, -period.base * static_cast<double>(k) * impact.time);
     shares.size += std::abs(jump);
@@ -132,7 +132,8 @@ TEST(Properties, harmonics_of_a_periodic_motion_follow_from_its_impacts) {
     Period period(any.scene, observed.from, total,
                   forced ? any.scene.oscillator.frequency : 2 * std::numbers::pi / total);
     motion::State<double> state = observed.from;
-    const stepping::Outcome outcome = run_for(integrator, state, observed.turns, period);
+    support::Told shown(period);
+    const stepping::Outcome outcome = run_for(integrator, state, observed.turns, shown);
     if (outcome != stepping::Outcome::completed) return;  // over budget
     period.finish(state);
     const double gap = std::max(std::abs(state.x - observed.from.x), std::abs(state.v - observed.from.v));

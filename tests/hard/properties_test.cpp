@@ -34,10 +34,10 @@ INSTANTIATE_TEST_SUITE_P(, MotionProperties, testing::Values(between_rigid_stops
 struct Contents : Watcher {
   std::uint64_t impacts = 0, rests = 0, chatters = 0, touches = 0, renewed = 0, separations = 0;
 
-  void rest(const motion::Rest& rest) { ++(rest.held ? rests : chatters); }
-  void impact(const motion::Impact&) { ++impacts; }
-  void touch(const motion::Touch& touch) { ++(touch.from_outside ? touches : renewed); }
-  void separate(const motion::Separation&) { ++separations; }
+  void rest(const motion::Event& rest) { ++(rest.held ? rests : chatters); }
+  void impact(const motion::Event&) { ++impacts; }
+  void touch(const motion::Event& touch) { ++(touch.kind == motion::Event::Kind::touch ? touches : renewed); }
+  void separate(const motion::Event&) { ++separations; }
 };
 
 TEST_P(MotionProperties, scenes_are_completed_and_hold_all_that_motion_is_made_of) {
@@ -91,10 +91,8 @@ struct Told : ToldPlaces {
   void arc(const A& arc, double begin, double length) {
     extrema.arc(arc, begin, length), samples.arc(arc, begin, length);
   }
-  void rest(const motion::Rest& rest) { extrema.rest(rest), samples.rest(rest), ToldPlaces::rest(rest); }
-  void impact(const motion::Impact& impact) {
-    extrema.impact(impact), samples.impact(impact), ToldPlaces::impact(impact);
-  }
+  void rest(const motion::Event& rest) { extrema.event(rest), samples.event(rest), ToldPlaces::rest(rest); }
+  void impact(const motion::Event& impact) { extrema.event(impact), samples.event(impact), ToldPlaces::impact(impact); }
 
   observables::Extrema::Observer extrema;
   observables::Samples samples;
@@ -108,7 +106,8 @@ TEST_P(MotionProperties, no_place_outside_the_stops_is_told) {
     with_any_stops(any.scene, [&]<Effects effects>() {
       stepping::Exact<double, effects> integrator(any.scene, limits_of(any.scene));
       motion::State<double> state = start_of(any.scene);
-      if (run_for(integrator, state, any.duration / integrator.period(), told) == stepping::Outcome::completed)
+      support::Told shown(told);
+      if (run_for(integrator, state, any.duration / integrator.period(), shown) == stepping::Outcome::completed)
         told.section(state);
     });
     const auto range = told.extrema.displacement(rigid_ones(any.scene.stops));
@@ -134,14 +133,14 @@ struct Order : Watcher {
   void arc(const A&, double begin, double) {
     right = right && begin >= last_impact;
   }
-  void rest(const motion::Rest& rest) { right = right && rest.time >= last_impact && rest.length >= 0; }
-  void impact(const motion::Impact& impact) {
+  void rest(const motion::Event& rest) { right = right && rest.time >= last_impact && rest.length >= 0; }
+  void impact(const motion::Event& impact) {
     right = right && impact.time > last_impact;
     last_impact = impact.time;
     ++impacts;
   }
-  void touch(const motion::Touch& touch) { change(touch.time, Change::touch); }
-  void separate(const motion::Separation& separation) { change(separation.time, Change::separation); }
+  void touch(const motion::Event& touch) { change(touch.time, Change::touch); }
+  void separate(const motion::Event& separation) { change(separation.time, Change::separation); }
   void change(double time, Change kind) {
     right = right && time >= last_impact && !(kind == Change::touch && last_change == kind);
     last_impact = time, last_change = kind;
@@ -211,13 +210,13 @@ struct Area : Watcher {
     in_stops += 2 * (arc.constants().h - damping) * length;
     rounding += (1 + decayed) * (1 + (std::abs(p.a * p.c) + p.b * p.b) * std::exp(decayed));
   }
-  void rest(const motion::Rest&) { smooth = false; }
-  void touch(const motion::Touch& touch) {
-    tangent.touch(touch);
+  void rest(const motion::Event&) { smooth = false; }
+  void touch(const motion::Event& touch) {
+    tangent.event(touch);
     ++touches, rounding += 1;
   }
-  void impact(const motion::Impact& impact) {
-    tangent.impact(impact);
+  void impact(const motion::Event& impact) {
+    tangent.event(impact);
     smooth = smooth && impact.before * sign_of(impact.side) > 0 && impact.after != 0;
     ++(impact.side == Side::upper ? on_upper : on_lower);
     rounding += 1;
@@ -260,18 +259,19 @@ struct Trace : Watcher {
   void arc(const A& arc, double begin, double length) {
     add({begin, length, scale * arc.start().x, scale * arc.start().v, 0});
   }
-  void rest(const motion::Rest& rest) {
-    add({rest.time, rest.length, double(sign * sign_of(rest.side)), scale * rest.position, double(rest.held)});
+  void rest(const motion::Event& rest) {
+    add({rest.time, rest.length, double(sign * sign_of(rest.side)), scale * rest.place, double(rest.held)});
   }
-  void impact(const motion::Impact& impact) {
+  void impact(const motion::Event& impact) {
     add({impact.time, double(sign * sign_of(impact.side)), scale * impact.before, scale * impact.after,
-         scale * impact.position});
+         scale * impact.place});
   }
-  void touch(const motion::Touch& touch) {
-    add({touch.time, double(sign * sign_of(touch.side)), scale * touch.velocity, double(touch.from_outside), 1});
+  void touch(const motion::Event& touch) {
+    add({touch.time, double(sign * sign_of(touch.side)), scale * touch.before,
+         double(touch.kind == motion::Event::Kind::touch), 1});
   }
-  void separate(const motion::Separation& separation) {
-    add({separation.time, double(sign * sign_of(separation.side)), scale * separation.velocity, 0, 2});
+  void separate(const motion::Event& separation) {
+    add({separation.time, double(sign * sign_of(separation.side)), scale * separation.before, 0, 2});
   }
   void section(const motion::State<double>& state) { add({scale * state.x, scale * state.v, state.phase_turns, 0, 0}); }
   /// A velocity that an overdamped stop takes keeps no digits below the normal numbers.

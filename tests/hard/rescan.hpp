@@ -32,20 +32,20 @@ class Rescan : public Watcher {
           ratio(std::max(rise_of(stops_.lower) - flight_.lowest, flight_.highest - rise_of(stops_.upper)), near_));
     flying_ = true, rebound_ = 0;
   }
-  void impact(const motion::Impact& impact) {
+  void impact(const motion::Event& impact) {
     const bool upper = impact.side == Side::upper, moving_in = upper ? impact.before > 0 : impact.before < 0;
     const double R = upper ? stops_.restitution_upper : stops_.restitution_lower;
     if (impact.after != (moving_in ? -R * impact.before : impact.before)) broken = infinity;
-    check_arrival(impact.position, impact.before);
-    x_ = impact.position, v_ = impact.after, rebound_ = impact.after;
+    check_arrival(impact.place, impact.before);
+    x_ = impact.place, v_ = impact.after, rebound_ = impact.after;
     flying_ = false;
   }
-  void rest(const motion::Rest& rest) {
+  void rest(const motion::Event& rest) {
     if (rest.held || rebound_ != 0)
       check_pressed(rest);
     else
       check_hover(rest);
-    x_ = rest.position, v_ = 0, rebound_ = 0;
+    x_ = rest.place, v_ = 0, rebound_ = 0;
   }
   void section(const motion::State<double>& state) {
     if (flying_) {
@@ -126,19 +126,17 @@ class Rescan : public Watcher {
   }
 
   /// The force on a mass at rest, f sin(theta) + load - k x, into its stop (eq. 22).
-  [[nodiscard]] Real force(const motion::Rest& rest, Real sine) const {
-    return sign_of(rest.side) *
-           (oscillator_.forcing * sine +
-            (static_cast<Real>(oscillator_.load) - static_cast<Real>(oscillator_.stiffness) * rest.position));
+  [[nodiscard]] Real force(const motion::Event& rest, Real sine) const {
+    return sign_of(rest.side) * (oscillator_.forcing * sine + (static_cast<Real>(oscillator_.load) -
+                                                               static_cast<Real>(oscillator_.stiffness) * rest.place));
   }
-  [[nodiscard]] double force_rounding(const motion::Rest& rest) const {
+  [[nodiscard]] double force_rounding(const motion::Event& rest) const {
     return ulps * epsilon<double>() *
-           (std::abs(oscillator_.forcing) + std::abs(oscillator_.load) +
-            std::abs(oscillator_.stiffness * rest.position));
+           (std::abs(oscillator_.forcing) + std::abs(oscillator_.load) + std::abs(oscillator_.stiffness * rest.place));
   }
 
   /// Checks that the force presses all the time, also at its least.
-  void check_pressed(const motion::Rest& rest) {
+  void check_pressed(const motion::Event& rest) {
     constexpr int looks = 16;
     Real least =
         std::min(force(rest, std::sin(angle(rest.time))), force(rest, std::sin(angle(rest.time + rest.length))));
@@ -148,7 +146,7 @@ class Rescan : public Watcher {
   }
 
   /// Checks that the force is so small that the mass would move by less than rounding.
-  void check_hover(const motion::Rest& rest) {
+  void check_hover(const motion::Event& rest) {
     const Real largest = std::max(std::abs(force(rest, std::sin(angle(rest.time)))),
                                   std::abs(force(rest, std::sin(angle(rest.time + rest.length)))));
     raise(pressed, ratio(largest * rest.length * rest.length / 2, force_rounding(rest)));

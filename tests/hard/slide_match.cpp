@@ -102,8 +102,11 @@ Events as_slide_events(const std::vector<motion::Event>& events) {
   const auto kind_of = [](Told kind) {
     switch (kind) {
       case Told::impact:
+      case Told::strike:
         return Kind::impact;
       case Told::rest:
+      case Told::press:
+      case Told::hold:
         return Kind::rest;
       case Told::chatter:
         return Kind::chatter;
@@ -122,7 +125,7 @@ Events as_slide_events(const std::vector<motion::Event>& events) {
   };
   Events converted;
   for (const motion::Event& event : events)
-    converted.push_back({kind_of(event.kind), event.side, event.time, event.velocity, event.end(), event.place});
+    converted.push_back({kind_of(event.kind), event.side, event.time, event.before, event.end(), event.place});
   return converted;
 }
 

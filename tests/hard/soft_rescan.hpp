@@ -32,16 +32,16 @@ class SoftRescan : public Rescan {
     scan(arc, length);
     flying_ = true, rebound_ = 0, ++within;
   }
-  void touch(const motion::Touch& touch) {
+  void touch(const motion::Event& touch) {
     stop_ = motion::soft_stop_at<double>(stops_, touch.side), pushing_ = touch.side;
-    if (!touch.from_outside) return check_change(touch.velocity);
-    check_arrival(touch.position, touch.velocity);
-    if (is_within_ || !(stop_.into(touch.velocity) > 0)) broken = infinity;
-    x_ = touch.position, v_ = touch.velocity, flying_ = false;
+    if (touch.kind != motion::Event::Kind::touch) return check_change(touch.before);
+    check_arrival(touch.place, touch.before);
+    if (is_within_ || !(stop_.into(touch.before) > 0)) broken = infinity;
+    x_ = touch.place, v_ = touch.before, flying_ = false;
   }
-  void separate(const motion::Separation& separation) {
+  void separate(const motion::Event& separation) {
     pushing_ = Side::none;
-    check_change(separation.velocity);
+    check_change(separation.before);
   }
   void section(const motion::State<double>& state) {
     Rescan::section(state);

@@ -12,8 +12,8 @@ namespace {
 
 /// Whether a motion has a derivative with respect to its start, and few enough impacts to be run in 50 digits.
 struct Smooth : Watcher {
-  void rest(const motion::Rest&) { smooth = false; }
-  void impact(const motion::Impact& impact) {
+  void rest(const motion::Event&) { smooth = false; }
+  void impact(const motion::Event& impact) {
     smooth = smooth && impact.before * sign_of(impact.side) > 0 && impact.after != 0;
     ++impacts;
   }

@@ -41,8 +41,10 @@ struct Both {
   void arc(const A& arc, double begin, double length) {
     extrema.arc(arc, begin, length), impacts.arc(arc, begin, length);
   }
-  void rest(const motion::Rest& rest) { extrema.rest(rest); }
-  void impact(const motion::Impact& impact) { extrema.impact(impact), impacts.impact(impact); }
+  void event(const motion::Event& event) {
+    extrema.event(event);
+    if (event.kind == motion::Event::Kind::impact) impacts.event(event);
+  }
 };
 
 template <Effects E>

@@ -20,7 +20,7 @@ struct Section {
 
 /// The impacts and sections of a lane, until it needs the scalar loop or has enough.
 struct LaneRun {
-  std::vector<motion::Impact> impacts{};  ///< times in tau since the start
+  std::vector<motion::Event> impacts{};  ///< times in tau since the start
   std::vector<Section> sections{};
   bool to_scalar = false;
   LaneState stuck_at{};
@@ -28,12 +28,15 @@ struct LaneRun {
 };
 
 /// Reads an impact from a lane, which is on a stop with the velocity after it.
-inline motion::Impact impact_of(const LaneView& lane, const point::Problem& scene, double sections) {
+inline motion::Event impact_of(const LaneView& lane, const point::Problem& scene, double sections) {
   const LaneState position = lane.state();
   const bool upper = position.x == scene.stops.upper;
   const double R = upper ? scene.stops.restitution_upper : scene.stops.restitution_lower;
-  return {(sections + position.phase_turns) * period_of(scene.oscillator), upper ? Side::upper : Side::lower,
-          -position.v / R, position.v, position.x};
+  return {.side = upper ? Side::upper : Side::lower,
+          .time = (sections + position.phase_turns) * period_of(scene.oscillator),
+          .before = -position.v / R,
+          .after = position.v,
+          .place = position.x};
 }
 
 /// Runs scenes side by side until each has met so many impacts, passed so many sections, or needs the scalar loop.

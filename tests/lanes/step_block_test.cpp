@@ -99,10 +99,10 @@ TEST_P(LaneSteps, a_step_with_a_nan_in_any_input_of_its_proof_is_not_proved) {
 }
 
 /// The first impacts of a run, as a run record.
-accuracy::RunRecord first_of(const std::vector<motion::Impact>& impacts, std::size_t count, double duration) {
+accuracy::RunRecord first_of(const std::vector<motion::Event>& impacts, std::size_t count, double duration) {
   accuracy::RunRecord record;
   record.duration = duration;
-  for (std::size_t i = 0; i < count; ++i) record.events.push_back(motion::event_of(impacts[i]));
+  for (std::size_t i = 0; i < count; ++i) record.events.push_back(impacts[i]);
   return record;
 }
 
@@ -118,7 +118,7 @@ std::vector<ScalarRun> moved_runs(const point::Problem& scene, std::size_t secti
 double own_deviation(const std::vector<ScalarRun>& others, const accuracy::RunRecord& record) {
   double worst = 0;
   for (const ScalarRun& other : others) {
-    const std::vector<motion::Impact>& impacts = other.record.impacts;
+    const std::vector<motion::Event>& impacts = other.record.impacts;
     if (impacts.size() < record.events.size()) return std::numeric_limits<double>::infinity();
     const support::Deviation d = support::deviation(first_of(impacts, record.events.size(), record.duration), record);
     worst = std::max(worst, d.same_events ? d.largest() : std::numeric_limits<double>::infinity());
@@ -169,9 +169,9 @@ void expect_same_impacts(const point::Problem& scene, const LaneRun& run, Sum& s
   // some ten roundings an impact, each of which acts as one of the inputs does; lanes round displacements from the
   // load's equilibrium, which may be larger than speeds
   double speed = 0, far = 0;
-  for (const motion::Impact& impact : scalar.record.impacts)
+  for (const motion::Event& impact : scalar.record.impacts)
     speed = std::max(speed, std::abs(impact.before)),
-    far = std::max(far, std::abs(impact.position - equilibrium_of(scene.oscillator)));
+    far = std::max(far, std::abs(impact.place - equilibrium_of(scene.oscillator)));
   const double allowed = (16 + static_cast<double>(count)) * epsilon<double>() * std::max(1.0, far / speed) + 32 * own;
   EXPECT_LE(d.largest(), allowed) << count << " impacts\n" << support::configuration_of(scene, duration);
   sum.worst = std::max(sum.worst, d.largest() / allowed);
@@ -216,18 +216,18 @@ void expect_no_impact_missed(InstructionSet arch) {
       const Oscillator& o = scene.oscillator;
       const Stops& stops = scene.stops;
       const Start& start = scene.start;
-      motion::Impact last{0, Side::none, 0, start.velocity, start.displacement};
-      for (const motion::Impact& impact : runs[i].impacts) {
+      motion::Event last{.after = start.velocity, .place = start.displacement};
+      for (const motion::Event& impact : runs[i].impacts) {
         const long double phase = start.phase + static_cast<long double>(o.frequency) * last.time;
-        const auto flight = hard::TaylorScan(o, 0).fly({last.position, last.after, std::sin(phase), std::cos(phase)},
+        const auto flight = hard::TaylorScan(o, 0).fly({last.place, last.after, std::sin(phase), std::cos(phase)},
                                                        impact.time - last.time);
         // the times carry the rounding of a turn count, at the speed of either end
-        const double size = std::abs(o.forcing) + std::abs(o.load) + std::abs(last.position) + std::abs(last.after);
+        const double size = std::abs(o.forcing) + std::abs(o.load) + std::abs(last.place) + std::abs(last.after);
         const double slack = 64 * epsilon<double>() * size * std::max(1.0, impact.time) *
                              std::max(1.0, steady_response(o).amplitude / size);
         beyond = std::max({beyond, static_cast<double>((stops.lower - flight.lowest) / slack),
                            static_cast<double>((flight.highest - stops.upper) / slack)});
-        off = std::max(off, static_cast<double>(std::abs(flight.end.offset - impact.position) / slack));
+        off = std::max(off, static_cast<double>(std::abs(flight.end.offset - impact.place) / slack));
         last = impact;
       }
     }

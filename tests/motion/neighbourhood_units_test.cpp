@@ -87,25 +87,12 @@ class Later {
   void arc(const A& arc, double begin, double length) {
     seen_.arc(arc, begin + by_, length);
   }
-  template <class A>
-  void in_housing(const A&, double, double) {}
-  template <class A>
-  void hold(const A&, const Rest&) {}
-  void rest(const Rest& rest) { seen_.rest(rest); }
-  void impact(const Impact& impact) { seen_.impact(later(impact)); }
-  void touch(const Touch& touch) { seen_.touch(later(touch)); }
-  void separate(const Separation& separation) { seen_.separate(later(separation)); }
-  void reversal(const Reversal& reversal) { seen_.reversal(later(reversal)); }
-  void strike(const Strike&) {}
-  void press(const Press&) {}
-
- private:
-  template <class Event>
-  [[nodiscard]] Event later(Event event) const {
+  void event(Event event) {
     event.time += by_;
-    return event;
+    seen_.event(event);
   }
 
+ private:
   RoughNeighbourhood& seen_;
   double by_;
 };

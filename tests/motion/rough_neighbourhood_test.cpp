@@ -72,9 +72,7 @@ struct Reversals {
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const Rest&) {}
-  void impact(const Impact&) {}
-  void reversal(const Reversal&) { ++count; }
+  void event(const Event& event) { count += event.kind == Event::Kind::reversal; }
 };
 
 int reversals_of(const Case& any) {

@@ -114,8 +114,8 @@ Case close_case(std::uint64_t seed, std::uint64_t i) {
   const double period = period_of(scene.oscillator);
   const auto record = support::run_scene(scene, any.turns * period).record;
   std::vector<double> times;
-  for (const Touch& touch : record.touches) times.push_back(touch.time);
-  for (const Separation& separation : record.separations) times.push_back(separation.time);
+  for (const Event& touch : record.touches) times.push_back(touch.time);
+  for (const Event& separation : record.separations) times.push_back(separation.time);
   if (times.empty()) return any;
   const double time = times[static_cast<std::size_t>(random.uniform(0, static_cast<double>(times.size())))];
   any.turns = std::max(0.01, (time + random.sign() * random.logarithmic(1e-9, 1e-1)) / period);
@@ -152,7 +152,8 @@ void check(const Case& any, std::uint64_t i, Tally& tally) {
   scene.start = {any.from.x, any.from.v, 0};
   if (seen->itinerary != 0) {
     const auto record = support::run_scene(scene, any.turns * period_of(scene.oscillator)).record;
-    for (const Touch& touch : record.touches) ++(touch.from_outside ? tally.touched : tally.renewed);
+    for (const Event& touch : record.touches)
+      ++(touch.kind == motion::Event::Kind::touch ? tally.touched : tally.renewed);
     tally.impacts += static_cast<int>(record.impacts.size());
     tally.from_within += record.separations.size() > record.touches.size();
     tally.large = std::max(tally.large, size);

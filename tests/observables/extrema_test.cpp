@@ -32,8 +32,7 @@ struct Scan {
       x.include(m.x), v.include(m.v);
     }
   }
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) { ++hits; }
+  void event(const motion::Event& event) { hits += event.kind == motion::Event::Kind::impact; }
 };
 
 TEST(Extrema, are_never_passed_by_a_dense_scan_and_never_far_from_it) {

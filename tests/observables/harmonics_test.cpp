@@ -125,9 +125,9 @@ struct Work {
           friction += half * Rule::weights()[i] * 2 * scene.oscillator.damping * m.v * m.v;
         }
   }
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact& impact) {
-    impacts += (impact.before * impact.before - impact.after * impact.after) / 2;
+  void event(const motion::Event& event) {
+    if (event.kind == motion::Event::Kind::impact)
+      impacts += (event.before * event.before - event.after * event.after) / 2;
   }
 };
 

@@ -57,10 +57,10 @@ class Watch {
   void arc(const A& arc, double begin, double length) {
     tangent.arc(arc, begin, length);
   }
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
-  void strike(const motion::Strike& strike) { tangent.strike(strike), ++strikes; }
-  void press(const motion::Press& press) { tangent.press(press), ++presses; }
+  void event(const motion::Event& event) {
+    tangent.event(event);
+    strikes += event.kind == motion::Event::Kind::strike, presses += event.kind == motion::Event::Kind::press;
+  }
 
   motion::LooseTangent tangent;
   int strikes = 0, presses = 0;

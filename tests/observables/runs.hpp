@@ -2,30 +2,12 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
-#include <type_traits>
 
+#include "motion/together.hpp"
 #include "point/problem.hpp"
 #include "steady/find_steady.hpp"
 
 namespace clatter::observables {
-
-/// Passes what happens on to several observers, as the sweep does.
-template <class... Observer>
-struct Both {
-  std::tuple<Observer&...> observers;
-
-  template <class A>
-  void arc(const A& arc, double begin, double length) {
-    std::apply([&](auto&... o) { (o.arc(arc, begin, length), ...); }, observers);
-  }
-  void rest(const motion::Rest& rest) {
-    std::apply([&](auto&... o) { (o.rest(rest), ...); }, observers);
-  }
-  void impact(const motion::Impact& impact) {
-    std::apply([&](auto&... o) { (o.impact(impact), ...); }, observers);
-  }
-};
 
 /// The observed time of a scene as an integrator finds it, under the eyes of `make(total)`'s observers; gives its
 /// length.
@@ -37,7 +19,7 @@ double observe_by(Integrator& integrator, const point::Problem& scene, Make&& ma
   const double total = observed.turns * integrator.period();
   state = observed.from;
   make(total, [&](auto&... observer) {
-    Both<std::remove_reference_t<decltype(observer)>...> all{{observer...}};
+    motion::Together all(observer...);
     const stepping::Outcome outcome = run_for(integrator, state, observed.turns, all);
     if (outcome != stepping::Outcome::completed) throw std::runtime_error("the scene was not completed");
     return state;

@@ -115,7 +115,7 @@ TEST(Stability, a_stop_that_is_touched_without_speed_changes_nothing) {
   EXPECT_EQ(found.stability.first(), 1.0);
   EXPECT_EQ(found.stability.second(), 1.0);
   motion::TangentMap<double> tangent({-1, 1, 0.7, 0.7});
-  tangent.impact({.time = 1, .side = Side::upper, .before = 0, .after = 0, .position = 1});
+  tangent.event({.side = Side::upper, .time = 1, .place = 1});
   EXPECT_EQ(tangent.map(), (motion::Jacobian<double>{1, 0, 0, 1}));
 }
 
@@ -196,7 +196,7 @@ TEST(Stability, of_chaos_is_positive_and_overflows_in_no_number_of_periods) {
   constexpr int pieces = 10, periods = 1000;
   for (int i = 0; i < pieces; ++i) {
     Stability::Observer piece(paper_scene(3.0, 0.7, 0.95).stops, 64 * ulp);
-    Both<Stability::Observer, Stability::Observer> both{{whole, piece}};
+    motion::Together both(whole, piece);
     state = chaos.after(state, periods, both);
     piece.finish_window(chaos.length(periods));
     exponents.push_back(piece.lyapunov());

@@ -14,11 +14,11 @@ namespace {
 struct Watch : support::LooseRecorder {
   explicit Watch(const WallGrazes& of) : grazes(of) {}
 
-  void strike(const motion::Strike& strike) { strikes.push_back(strike), grazes.strike(strike); }
   template <class A>
-  void in_housing(const A& arc, double begin, double length) {
-    grazes.in_housing(arc, begin, length);
+  void arc(const A& arc, double begin, double length) {
+    grazes.arc(arc, begin, length);
   }
+  void event(const motion::Event& event) { LooseRecorder::event(event), grazes.event(event); }
 
   WallGrazes grazes;
 };

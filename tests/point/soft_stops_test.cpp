@@ -59,13 +59,13 @@ TEST(SoftStops, the_log_has_the_separation_that_follows_each_touch) {
     const support::Recorder seen = support::run_scene(scene, scene.time.duration).record;
     std::vector<double> after;
     for (std::size_t k = 0; k < seen.touches.size(); ++k) {
-      const motion::Touch& touch = seen.touches[k];
-      renewed += !touch.from_outside;
-      if (!touch.from_outside || !(touch.time > 0)) continue;
-      const auto next = std::ranges::find_if(seen.separations, [&](const motion::Separation& separation) {
+      const motion::Event& touch = seen.touches[k];
+      renewed += touch.kind != motion::Event::Kind::touch;
+      if (touch.kind != motion::Event::Kind::touch || !(touch.time > 0)) continue;
+      const auto next = std::ranges::find_if(seen.separations, [&](const motion::Event& separation) {
         return separation.side == touch.side && separation.time >= touch.time;
       });
-      after.push_back(next == seen.separations.end() ? std::numeric_limits<double>::quiet_NaN() : next->velocity);
+      after.push_back(next == seen.separations.end() ? std::numeric_limits<double>::quiet_NaN() : next->after);
     }
     ASSERT_EQ(found.log.size(), after.size()) << i;
     for (std::size_t k = 0; k < after.size(); ++k)

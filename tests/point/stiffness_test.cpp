@@ -72,7 +72,7 @@ TEST(BouncingBall, without_a_force_comes_to_rest_after_the_known_time) {
   scene.start = {0.0, 3.0, 0.0};
   const auto whole = support::run_scene(scene, 13.0);
   EXPECT_EQ(whole.outcome, stepping::Outcome::completed);
-  const auto held = std::ranges::find_if(whole.record.rests, &motion::Rest::held);
+  const auto held = std::ranges::find_if(whole.record.rests, &motion::Event::held);
   ASSERT_NE(held, whole.record.rests.end());
   EXPECT_NEAR(held->time, 2 * 3.0 / (1 - 0.5), 1e-14 * 12);
   EXPECT_EQ(run(scene).found_by, steady::FoundBy::standstill);

@@ -31,7 +31,7 @@ TEST(Settle, free_vibration_between_stops_has_its_period_at_once) {
     // conditioning: an ulp of the stop's position moves the contact by itself over the speed
     EXPECT_NEAR(steady.length, V > g ? 4 * std::asin(g / V) : 2 * pi_, 1e-15 * (4 + 4 / speed)) << "V = " << V;
     EXPECT_EQ(steady.record.impacts.size(), V > g ? 2u : 0u);
-    for (const motion::Impact& impact : steady.record.impacts)
+    for (const motion::Event& impact : steady.record.impacts)
       EXPECT_NEAR(std::abs(impact.before) / speed, 1.0, 1e-15 * (4 + 4 * g / (speed * speed)));
     EXPECT_EQ(steady.from.v, -V);  // the start lies on the motion
   }
@@ -67,7 +67,7 @@ TEST(Settle, symmetric_motion_has_the_speed_of_its_closed_form) {
     EXPECT_EQ(steady.status, Status::periodic);
     EXPECT_EQ(steady.turns, 1.0);
     ASSERT_EQ(steady.record.impacts.size(), 2u);
-    for (const motion::Impact& impact : steady.record.impacts)
+    for (const motion::Event& impact : steady.record.impacts)
       EXPECT_NEAR(std::abs(impact.before) / u, 1.0, 1e-12) << "g = " << g;
   }
 }
@@ -83,7 +83,7 @@ TEST(Settle, impacts_per_period_are_those_the_paper_states) {
     EXPECT_EQ(steady.turns, 1.0);
     for (const Side side : {Side::lower, Side::upper})
       EXPECT_EQ(std::count_if(steady.record.impacts.begin(), steady.record.impacts.end(),
-                              [&](const motion::Impact& i) { return i.side == side; }),
+                              [&](const motion::Event& i) { return i.side == side; }),
                 per_stop);
   }
 }

@@ -52,8 +52,7 @@ TEST(StroboscopicMap, newtons_method_finds_the_symmetric_motion_to_rounding) {
   motion::State<double> state = orbit->states[0];
   ASSERT_EQ(advance_to_section(integrator, state, state.periods, record), stepping::Outcome::completed);
   ASSERT_EQ(record.impacts.size(), 2u);
-  for (const motion::Impact& impact : record.impacts)
-    EXPECT_NEAR(std::abs(impact.before), 0.88861376168497155, 8 * ulp);
+  for (const motion::Event& impact : record.impacts) EXPECT_NEAR(std::abs(impact.before), 0.88861376168497155, 8 * ulp);
   // multipliers of the whole period, as given beside eq. 37
   const motion::Jacobian<double>& D = orbit->derivative();
   EXPECT_NEAR(D[0] + D[3], 0.349971948059 + 0.195257796329, 1e-10);

@@ -31,7 +31,7 @@ support::Run<> cut_at(const point::Problem& scene, const std::vector<double>& cu
 
 double time_at_rest(const support::Run<>& run) {
   double sum = 0;
-  for (const motion::Rest& rest : run.record.rests) sum += rest.length;
+  for (const motion::Event& rest : run.record.rests) sum += rest.length;
   return sum;
 }
 
@@ -49,7 +49,7 @@ TEST(ChatterSections, a_cut_changes_neither_the_impacts_nor_the_motion) {
     std::ranges::sort(cuts);
     const auto compare = [&]<Effects E>() {
       const support::Run<> whole = cut_at<E>(scene, {});
-      for (const motion::Rest& rest : whole.record.rests)  // and cut right within the first chatter
+      for (const motion::Event& rest : whole.record.rests)  // and cut right within the first chatter
         if (const double turns = rest.time / (2 * pi<double>()) * scene.oscillator.frequency; !rest.held && turns < 1) {
           const double length = rest.length / (2 * pi<double>()) * scene.oscillator.frequency;
           if (scene.oscillator.forcing != 0 && turns + length < 1) {
@@ -86,7 +86,7 @@ TEST(ChatterSections, a_ball_rebounds_to_its_closed_form_before_its_chatter_is_s
     const double last = std::log(1e-12) / (2 * std::log(R));  // R^(2 n) = 1e-12
     EXPECT_EQ(static_cast<double>(impacts.size()), std::ceil(last)) << R;
     double time = fall, speed = 1.5 * fall;
-    for (const motion::Impact& impact : impacts) {
+    for (const motion::Event& impact : impacts) {
       EXPECT_NEAR(impact.time, time, 1e-14 * end) << R;
       EXPECT_NEAR(-impact.before, speed, 1e-13 * speed) << R;
       speed *= R, time += 2 * speed / 1.5;

@@ -86,8 +86,7 @@ struct ArcCount {
   void arc(const A&, double, double) {
     ++arcs;
   }
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
+  void event(const motion::Event&) {}
 };
 
 TEST(DormandPrince, a_step_costs_seven_evaluations_and_a_refused_one_six) {
@@ -117,8 +116,9 @@ struct HiddenContacts {
     const double first = arc.at(0.0).x, last = arc.at(arc.length()).x;
     last_hides = length < arc.length() && first < stops.upper && last < stops.upper;
   }
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) { ++impacts, hidden += last_hides, last_hides = false; }
+  void event(const motion::Event& event) {
+    if (event.kind == motion::Event::Kind::impact) ++impacts, hidden += last_hides, last_hides = false;
+  }
 };
 
 TEST(DormandPrince, finds_a_stop_that_is_crossed_twice_within_a_step) {

@@ -21,11 +21,11 @@ TEST(Exact, chatter_is_completed_and_the_mass_rests_until_its_release) {
   EXPECT_NEAR(impacts.at(1).time, 3.1907700695690808, 1e-14);
   ASSERT_EQ(run.record.rests.size(), 2u);  // the end of the chatter, and the rest
   EXPECT_FALSE(run.record.rests[0].held);
-  const motion::Rest& rest = run.record.rests[1];
+  const motion::Event& rest = run.record.rests[1];
   EXPECT_TRUE(rest.held);
   EXPECT_NEAR(rest.time, 4.4158803670592697, 1e-14);
   EXPECT_NEAR(rest.time + rest.length, 5 * pi_ / 3, 1e-14);
-  const motion::Impact& lower = impacts.back();
+  const motion::Event& lower = impacts.back();
   EXPECT_EQ(lower.side, Side::lower);
   EXPECT_NEAR(lower.time, 7.9756605890323812, 2e-14);
   EXPECT_NEAR(lower.before, -0.7854147777624616, 2e-14);
@@ -220,7 +220,7 @@ TEST(Exact, no_impact_leaves_a_stop) {
   // rounding of a release under very heavy damping once put the mass back on the stop it was leaving
   const auto run = support::run_scene(support::scene_of({1e6, 30.0, 0.5, 0.0}, -2.0, 2.0, 0.0), 40.0);
   EXPECT_EQ(run.outcome, Outcome::completed);
-  for (const motion::Impact& impact : run.record.impacts) EXPECT_GE(impact.before * sign_of(impact.side), 0.0);
+  for (const motion::Event& impact : run.record.impacts) EXPECT_GE(impact.before * sign_of(impact.side), 0.0);
 }
 
 TEST(Exact, motion_may_fade_far_below_its_stops) {

@@ -22,8 +22,7 @@ constexpr Effects light = effect_sets::with_friction(Damping::light, Forcing::se
 /// Counts impacts and rests.
 struct Counter : NoObserver {
   int impacts = 0, rests = 0;
-  void impact(const motion::Impact&) { ++impacts; }
-  void rest(const motion::Rest&) { ++rests; }
+  void event(const motion::Event& event) { ++(event.lasts() ? rests : impacts); }
 };
 
 /// A scene in which impacts, grazes, chatter and rests come up; its stops are near each other, far apart, or one.

@@ -39,10 +39,10 @@ TEST(LooseMass, the_main_mass_is_where_the_closed_form_has_it) {
   ASSERT_EQ(run.outcome, Outcome::completed);
   ASSERT_GT(run.record.strikes.size(), 5000u);
   for (std::size_t i = run.record.strikes.size() - 4; i < run.record.strikes.size(); ++i) {
-    const motion::Strike& strike = run.record.strikes[i];
-    EXPECT_NEAR(std::abs(strike.place), 0.180585488325042, 1e-12);
-    EXPECT_NEAR(std::abs(strike.v_before), 0.0492816268556546, 1e-12);
-    EXPECT_NEAR(std::abs(strike.v_after), 0.034497138798958, 1e-12);
+    const motion::Event& strike = run.record.strikes[i];
+    EXPECT_NEAR(std::abs(strike.main.place), 0.180585488325042, 1e-12);
+    EXPECT_NEAR(std::abs(strike.main.before), 0.0492816268556546, 1e-12);
+    EXPECT_NEAR(std::abs(strike.main.after), 0.034497138798958, 1e-12);
     EXPECT_NEAR(std::abs(strike.before), support::impact_damper_speed, 1e-12);
   }
 }
@@ -54,12 +54,12 @@ TEST(LooseMass, impacts_keep_the_momentum_and_lose_their_share_of_the_energy) {
   scene.loose.velocity = 0.2, scene.loose.load = 0.05;
   const LooseRun run = run_loose(scene, 300);
   ASSERT_GT(run.record.strikes.size(), 100u);
-  for (const motion::Strike& strike : run.record.strikes) {
-    const double y = strike.v_before + strike.before, y_after = strike.v_after + strike.after;
-    EXPECT_NEAR(strike.v_before + eps * y, strike.v_after + eps * y_after, 1e-13);
+  for (const motion::Event& strike : run.record.strikes) {
+    const double y = strike.main.before + strike.before, y_after = strike.main.after + strike.after;
+    EXPECT_NEAR(strike.main.before + eps * y, strike.main.after + eps * y_after, 1e-13);
     EXPECT_NEAR(strike.after, -R * strike.before, 1e-16);
-    const double before = strike.v_before * strike.v_before + eps * y * y,
-                 after = strike.v_after * strike.v_after + eps * y_after * y_after;
+    const double before = strike.main.before * strike.main.before + eps * y * y,
+                 after = strike.main.after * strike.main.after + eps * y_after * y_after;
     EXPECT_NEAR((before - after) / 2, eps * (1 - R * R) * strike.before * strike.before / (2 * (1 + eps)), 1e-13);
   }
 }
@@ -125,9 +125,9 @@ TEST(LooseMass, a_wall_lets_go_where_it_would_have_to_pull) {
   const LooseRun run = run_loose(scene, 400);
   ASSERT_GT(run.record.presses.size(), 5u);
   ASSERT_GT(run.record.holds.size(), 5u);
-  for (const motion::Press& press : run.record.presses) EXPECT_LT(std::abs(press.speed), 1e-14);
-  for (const motion::Rest& hold : run.record.holds) {
-    EXPECT_EQ(hold.position, hold.side == Side::upper ? 1 : -0.1);
+  for (const motion::Event& press : run.record.presses) EXPECT_LT(std::abs(press.before), 1e-14);
+  for (const motion::Event& hold : run.record.holds) {
+    EXPECT_EQ(hold.place, hold.side == Side::upper ? 1 : -0.1);
     EXPECT_GE(hold.length, 0);
   }
 }

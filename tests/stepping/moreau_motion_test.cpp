@@ -36,31 +36,31 @@ TEST(MoreauMotion, an_impact_keeps_the_share_of_speed_that_restitution_says) {
     scene.stops.restitution_lower = R / 2;
     const support::Recorder record = record_of(scene, 20.0);
     ASSERT_GE(record.impacts.size(), 5u);
-    for (const motion::Impact& impact : record.impacts) {
+    for (const motion::Event& impact : record.impacts) {
       EXPECT_GT(impact.before * sign_of(impact.side), 0.0);
       EXPECT_EQ(impact.after, -(impact.side == Side::upper ? R : R / 2) * impact.before);
-      EXPECT_EQ(impact.position, impact.side == Side::upper ? 0.5 : -0.5);
+      EXPECT_EQ(impact.place, impact.side == Side::upper ? 0.5 : -0.5);
     }
   }
 }
 
 /// Records the position from which the mass leaves after an impact.
 struct Departures {
-  std::optional<motion::Impact> last{};
+  std::optional<motion::Event> last{};
   int count = 0;
 
   template <class A>
   void arc(const A& arc, double, double) {
     if (!last) return;
-    EXPECT_EQ(arc.at(0.0).x, last->position);
+    EXPECT_EQ(arc.at(0.0).x, last->place);
     EXPECT_EQ(arc.at(0.0).v, 0.0);
     last.reset(), ++count;
   }
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact& impact) {
-    EXPECT_EQ(impact.after, 0.0);
-    EXPECT_FALSE(std::signbit(impact.after));
-    last = impact;
+  void event(const motion::Event& event) {
+    if (event.kind != motion::Event::Kind::impact) return;
+    EXPECT_EQ(event.after, 0.0);
+    EXPECT_FALSE(std::signbit(event.after));
+    last = event;
   }
 };
 
@@ -145,7 +145,7 @@ TEST(MoreauMotion, an_elastic_stop_returns_all_speed_and_keeps_an_oscillation_fo
   support::Recorder record = record_of(scene, 1e4);
   ASSERT_GT(record.impacts.size(), 9500u);  // every 2 asin(1/2) = pi/3
   // positions at impacts are known to a step, hence the speed by energy, without drift
-  for (const motion::Impact& impact : record.impacts)
+  for (const motion::Event& impact : record.impacts)
     EXPECT_NEAR(std::abs(impact.before), std::sqrt(1.5 * 1.5 - 0.75 * 0.75), 0.75 * 2 * pi_ * 1e-3);
 }
 

@@ -137,10 +137,10 @@ struct Beyond {
       depth = std::max({depth, m.x - stops.upper, stops.lower - m.x}), speed = std::max(speed, std::abs(m.v));
     }
   }
-  void rest(const motion::Rest& rest) {
-    gapless = gapless && std::abs(rest.time - end) <= 1e-12, end = rest.time + rest.length;
+  void event(const motion::Event& event) {
+    if (event.lasts()) gapless = gapless && std::abs(event.time - end) <= 1e-12, end = event.end();
+    if (!event.lasts()) speed = std::max(speed, std::abs(event.before));
   }
-  void impact(const motion::Impact& impact) { speed = std::max(speed, std::abs(impact.before)); }
 };
 
 TEST(Moreau, goes_beyond_a_stop_by_a_step_at_most_and_arcs_and_rests_leave_no_gap) {
@@ -171,8 +171,7 @@ struct Steps {
   void arc(const A&, double, double length) {
     ++arcs, shortest = std::min(shortest, length), longest = std::max(longest, length);
   }
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
+  void event(const motion::Event&) {}
 };
 
 TEST(Moreau, steps_count_from_the_section_and_the_last_one_is_cut_there) {

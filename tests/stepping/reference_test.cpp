@@ -62,7 +62,7 @@ TEST_P(ReferenceList, double_has_every_impact_and_no_other) {
   ASSERT_EQ(run.record.impacts.size(), reference.rows.size());
   for (std::size_t i = 0; i < reference.rows.size(); ++i) {
     const Row& row = reference.rows[i];
-    const motion::Impact& impact = run.record.impacts[i];
+    const motion::Event& impact = run.record.impacts[i];
     EXPECT_EQ(sign_of(impact.side), row.side);
     EXPECT_NEAR(impact.time / static_cast<double>(row.time), 1.0, 1e-11) << "impact " << i;
     EXPECT_NEAR(impact.before / static_cast<double>(row.before), 1.0, 1e-11) << "impact " << i;

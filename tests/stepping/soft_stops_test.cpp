@@ -36,13 +36,13 @@ TEST(SoftStops, free_motion_has_the_period_of_the_closed_form) {
       const double period = 4 * (std::asin(1 / V) + std::atan(stiff * far) / stiff);
       const auto run = support::run_scene(scene, 100.5 * period);
       std::vector<double> upper;
-      for (const motion::Touch& touch : run.record.touches)
+      for (const motion::Event& touch : run.record.touches)
         if (touch.side == Side::upper) upper.push_back(touch.time);
       ASSERT_GE(upper.size(), 101u);
       // a clock that counts in periods of 2 pi rounds each time to its ulp, and each contact adds one
       EXPECT_NEAR((upper[100] - upper[0]) / 100, period, 8 * epsilon<double>() * upper[100]) << kappa << ' ' << V;
       // nothing is lost: each of 200 contacts may round the energy once
-      EXPECT_NEAR(run.record.separations.back().velocity, far * -sign_of(run.record.separations.back().side),
+      EXPECT_NEAR(run.record.separations.back().before, far * -sign_of(run.record.separations.back().side),
                   200 * epsilon<double>() * V * V / far);
     }
 }
@@ -55,10 +55,10 @@ TEST(SoftStops, a_damped_contact_has_the_duration_and_the_restitution_of_the_clo
       const auto run = support::run_scene(scene, 1.0 / 1.5 + 10 / std::sqrt(kappa));
       const double angle = std::acos(zeta) / std::sqrt((1 - zeta) * (1 + zeta));
       ASSERT_GE(run.record.separations.size(), 1u);
-      const motion::Touch touch = run.record.touches[0];
-      const motion::Separation end = run.record.separations[0];
-      EXPECT_NEAR(touch.velocity, 1.5, 4 * epsilon<double>());
-      EXPECT_NEAR(end.velocity, -1.5 * std::exp(-2 * zeta * angle), 64 * epsilon<double>()) << zeta << ' ' << kappa;
+      const motion::Event touch = run.record.touches[0];
+      const motion::Event end = run.record.separations[0];
+      EXPECT_NEAR(touch.before, 1.5, 4 * epsilon<double>());
+      EXPECT_NEAR(end.after, -1.5 * std::exp(-2 * zeta * angle), 64 * epsilon<double>()) << zeta << ' ' << kappa;
       const double clock = 16 * epsilon<double>() * touch.time;  // both times are read off it
       EXPECT_NEAR(end.time - touch.time, 2 * angle / std::sqrt(kappa),
                   64 * epsilon<double>() / std::sqrt(kappa) + clock);
@@ -161,8 +161,7 @@ struct ModeCheck {
       }
     }
   }
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
+  void event(const motion::Event&) {}
 };
 
 TEST(SoftStops, no_contact_and_no_separation_is_missed) {
@@ -191,7 +190,7 @@ TEST(SoftStops, stiffer_ones_tend_to_rigid_ones_as_the_root_of_their_compliance)
       const auto soft = support::run_scene(between_soft(oscillator, 0.3, kappa, zeta), 6.0);
       ASSERT_EQ(soft.record.touches.size(), rigid.record.impacts.size());
       compliances.push_back(1 / kappa);
-      errors.push_back(std::abs(soft.record.touches.back().velocity - rigid.record.impacts.back().before));
+      errors.push_back(std::abs(soft.record.touches.back().before - rigid.record.impacts.back().before));
     }
     EXPECT_NEAR(support::order_of(compliances, errors), 0.5, 0.02) << zeta;
   }
@@ -203,7 +202,8 @@ TEST(SoftStops, a_mass_that_a_damper_holds_back_leaves_it_inside_the_stop_and_ma
   scene.oscillator.forcing = 5.0, scene.oscillator.frequency = 20.0;
   const auto run = support::run_scene(scene, 200.0);
   EXPECT_EQ(run.outcome, Outcome::completed);
-  EXPECT_TRUE(std::ranges::any_of(run.record.touches, [](const motion::Touch& touch) { return !touch.from_outside; }));
+  EXPECT_TRUE(std::ranges::any_of(run.record.touches,
+                                  [](const motion::Event& touch) { return touch.kind != motion::Event::Kind::touch; }));
   const auto reference = support::run_scene<FiftyDigits>(scene, 200.0);
   EXPECT_EQ(run.record.touches.size(), reference.record.touches.size());
   EXPECT_NEAR(run.end.x, static_cast<double>(reference.end.x), 1e-13);  // some hundred contacts, each damped away

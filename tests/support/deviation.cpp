@@ -53,8 +53,10 @@ Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord
     result.time = std::max({result.time, event.kind == accuracy::Event::Kind::chatter ? 0.0 : off, end_off});
     result.speed = std::max(result.speed, std::abs(event.speed() - other.speed()));
     size_v = std::max(size_v, other.speed());
-    result.place = std::max(result.place, std::abs(event.place - other.place));
-    size_place = std::max(size_place, std::abs(other.place));
+    if (event.side == Side::none) {  // it sticks or turns back
+      result.place = std::max(result.place, std::abs(event.place - other.place));
+      size_place = std::max(size_place, std::abs(other.place));
+    }
     ++count_of(event.kind, result);
   }
   while (j < expected.size() && expected[j].time >= (1 - at_the_end) * reference.duration) ++j;

@@ -76,19 +76,17 @@ struct NamedLooseScene {
 
 /// Records the impacts of a loose mass, and the times in which a wall presses it.
 struct LooseRecorder {
-  std::vector<motion::Strike> strikes{};
-  std::vector<motion::Press> presses{};
-  std::vector<motion::Rest> holds{};
+  std::vector<motion::Event> strikes{};
+  std::vector<motion::Event> presses{};
+  std::vector<motion::Event> holds{};
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
-  void strike(const motion::Strike& strike) { strikes.push_back(strike); }
-  void press(const motion::Press& press) { presses.push_back(press); }
-  template <class A>
-  void hold(const A&, const motion::Rest& hold) {
-    holds.push_back(hold);
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind == Kind::strike) strikes.push_back(event);
+    if (event.kind == Kind::press) presses.push_back(event);
+    if (event.kind == Kind::hold) holds.push_back(event);
   }
 };
 

@@ -39,15 +39,13 @@ struct EventList {
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest& rest) { events.push_back(motion::event_of(rest)); }
-  void impact(const motion::Impact& impact) { events.push_back(motion::event_of(impact)); }
-  void strike(const motion::Strike& strike) { events.push_back(motion::event_of(strike.in_housing())); }
-  template <class A>
-  void hold(const A&, const motion::Rest& hold) {
-    events.push_back(motion::event_of(hold));
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind == Kind::touch || event.kind == Kind::renewal)
+      events.push_back(accuracy::as_impact(event));
+    else if (event.kind != Kind::separation && event.kind != Kind::press)
+      events.push_back(event.in_housing());
   }
-  void reversal(const motion::Reversal& reversal) { events.push_back(motion::event_of(reversal)); }
-  void touch(const motion::Touch& touch) { events.push_back(accuracy::as_impact(motion::event_of(touch))); }
 };
 
 /// The run of a scene by a general method, as record_of gives that of the exact one.

@@ -8,21 +8,6 @@ namespace clatter::support {
 
 namespace {
 
-void record_events(const std::vector<motion::Event>& events, const Stops& stops, Recorder& record) {
-  using Kind = motion::Event::Kind;
-  for (const motion::Event& event : events) {
-    const double position = event.side == Side::upper ? stops.upper : stops.lower;
-    if (event.kind == Kind::impact)
-      record.impact({event.time, event.side, event.velocity, event.after, position});
-    else if (event.kind == Kind::separation)
-      record.separate({event.time, event.side, event.velocity});
-    else if (event.kind == Kind::touch || event.kind == Kind::renewal)
-      record.touch({event.time, event.side, event.velocity, position, event.kind == Kind::touch});
-    else
-      record.rest({event.time, event.length, event.side, position, event.kind == Kind::rest});
-  }
-}
-
 /// The integrator that the program is compiled with, in double, for a time that `turns_of` gives from the length of a
 /// forcing period.
 template <class TurnsOf>
@@ -34,7 +19,7 @@ Run<double> run_in(const point::Problem& scene, double x, double v, TurnsOf&& tu
   run.end.x = x, run.end.v = v;
   run.outcome = motion->run_for(run.end, turns_of(motion->period()), recorder);
   run.evaluations = motion->evaluations();
-  record_events(recorder.events, scene.stops, run.record);
+  for (const motion::Event& event : recorder.events) run.record.event(event);
   return run;
 }
 template <class TurnsOf>
@@ -82,7 +67,7 @@ Steady steady_of(const point::Problem& scene) {
   motion::State<double> state = observed.from;
   if (motion->run_for(state, observed.turns, recorder) != stepping::Outcome::completed)
     steady.status = steady::Status::unresolved;
-  record_events(recorder.events, scene.stops, steady.record);
+  for (const motion::Event& event : recorder.events) steady.record.event(event);
   return steady;
 }
 

@@ -9,17 +9,20 @@ namespace clatter::support {
 
 /// Records every impact, rest and contact of a run.
 struct Recorder {
-  std::vector<motion::Impact> impacts{};
-  std::vector<motion::Rest> rests{};
-  std::vector<motion::Touch> touches{};
-  std::vector<motion::Separation> separations{};
+  std::vector<motion::Event> impacts{};
+  std::vector<motion::Event> rests{};
+  std::vector<motion::Event> touches{};
+  std::vector<motion::Event> separations{};
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest& rest) { rests.push_back(rest); }
-  void impact(const motion::Impact& impact) { impacts.push_back(impact); }
-  void touch(const motion::Touch& touch) { touches.push_back(touch); }
-  void separate(const motion::Separation& separation) { separations.push_back(separation); }
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.lasts()) rests.push_back(event);
+    if (event.kind == Kind::impact) impacts.push_back(event);
+    if (event.kind == Kind::touch || event.kind == Kind::renewal) touches.push_back(event);
+    if (event.kind == Kind::separation) separations.push_back(event);
+  }
 };
 
 /// A scene with both restitutions equal.

@@ -65,10 +65,10 @@ class GroundScan {
       return PhasePoint{static_cast<double>(m.x), static_cast<double>(m.v)};
     });
   }
-  void rest(const motion::Rest& rest) {
-    scan(rest.time, rest.length, [&](double) { return PhasePoint{rest.position, 0.0}; });
+  void event(const motion::Event& event) {
+    if (event.lasts()) scan(event.time, event.length, [&](double) { return PhasePoint{event.place, 0.0}; });
+    impacts += event.kind == motion::Event::Kind::impact && event.time > 0 ? 1 : 0;
   }
-  void impact(const motion::Impact& impact) { impacts += impact.time > 0 ? 1 : 0; }
 
   [[nodiscard]] double amplitude() const { return std::abs(b_); }  ///< of what is shaken
   [[nodiscard]] double speed() const { return std::abs(b_ * nu_); }

@@ -95,12 +95,12 @@ observables::Extrema::Values extrema_in_housing(const FollowedScene& scene, cons
   const observables::ObservedSpan span{.scene = scene, .turns = first.phase / (2 * std::numbers::pi), .frame = frame};
   observables::Extrema::Observer extrema({}, span);
   each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
-    const double since = begin / arc.constants().nu;
-    extrema.arc(arc.main(), since, length), extrema.in_housing(arc, since, length);
+    extrema.arc(motion::HousedArc{arc.main(), arc}, begin / arc.constants().nu, length);
   });
   for (const OrbitImpact& impact : whole.impacts) {
     const double wall = impact.side == Side::upper ? scene.loose.upper : scene.loose.lower;
-    extrema.strike({0.0, impact.side, impact.before, 0.0, wall, impact.main, impact.main, 0.0});
+    extrema.event(
+        {.kind = EventKind::strike, .side = impact.side, .place = wall, .main = {0.0, impact.main, impact.main}});
   }
   return extrema.finish(span, numbers_of<double>(scene).middle() + first.place, first.main);
 }
