@@ -11,6 +11,26 @@
 namespace clatter {
 inline namespace math {
 
+namespace detail {
+
+#if defined(__x86_64__)
+inline const bool has_fused = __builtin_cpu_supports("fma");
+#endif
+
+/// x y + z in one rounding. The program is built for every x86-64, some of which have no instruction for it, and a call
+/// of std::fma costs as much as the rest of a product.
+[[nodiscard]] inline double fused(double x, double y, double z) {
+#if defined(__x86_64__)
+  if (has_fused) {
+    asm("vfmadd213sd %2, %1, %0" : "+x"(x) : "x"(y), "x"(z));
+    return x;
+  }
+#endif
+  return std::fma(x, y, z);
+}
+
+}  // namespace detail
+
 /// A number of some 31 decimal digits, the unevaluated sum of two doubles of which the second is at most half an ulp of
 /// the first (Dekker 1971). It takes a tenth of the time of a number of 50 digits. Its sums, products, quotients and
 /// functions are off by a few 1e-32 of their values, as long as these are between 1e-280 and 1e300.
@@ -22,13 +42,18 @@ class DoubleDouble {
   constexpr DoubleDouble(T value) : high_(static_cast<double>(value)) {}  // every int is a double
   /// The sum of two doubles.
   [[nodiscard]] static DoubleDouble sum(double a, double b) {
-    const double s = a + b, part = s - a;
-    return std::isfinite(s) ? DoubleDouble(s, (a - (s - part)) + (b - part)) : DoubleDouble(s);
+    const DoubleDouble s = exact_sum(a, b);
+    return std::isfinite(s.high_) ? s : DoubleDouble(s.high_);
   }
   /// The product of two doubles.
   [[nodiscard]] static DoubleDouble product(double a, double b) {
-    const double p = a * b;
-    return std::isfinite(p) ? DoubleDouble(p, std::fma(a, b, -p)) : DoubleDouble(p);
+    const DoubleDouble p = exact_product(a, b);
+    return std::isfinite(p.high_) ? p : DoubleDouble(p.high_);
+  }
+  /// The sum of two numbers of which the second is so much smaller that no digit of the first is cancelled.
+  [[nodiscard]] static DoubleDouble sum_of_unlike(const DoubleDouble& large, const DoubleDouble& small) {
+    const DoubleDouble highs = joined(large.high_, small.high_);
+    return joined(highs.high_, highs.low_ + (large.low_ + small.low_));
   }
 
   [[nodiscard]] constexpr double high() const { return high_; }
@@ -39,13 +64,14 @@ class DoubleDouble {
 
   DoubleDouble operator-() const { return {-high_, -low_}; }
   friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
-    const DoubleDouble highs = sum(a.high_, b.high_), lows = sum(a.low_, b.low_);
-    return joined(joined(highs.high_, highs.low_ + lows.high_), lows.low_);
+    const DoubleDouble highs = exact_sum(a.high_, b.high_), lows = exact_sum(a.low_, b.low_);
+    const DoubleDouble near = joined(highs.high_, highs.low_ + lows.high_);
+    return finite(joined(near.high_, near.low_ + lows.low_), highs.high_);
   }
   friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
   friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
-    const DoubleDouble p = product(a.high_, b.high_);
-    return std::isfinite(p.high_) ? joined(p.high_, p.low_ + (a.high_ * b.low_ + a.low_ * b.high_)) : p;
+    const DoubleDouble p = exact_product(a.high_, b.high_);
+    return finite(joined(p.high_, p.low_ + (a.high_ * b.low_ + a.low_ * b.high_)), p.high_);
   }
   friend DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
     const double first = a.high_ / b.high_;
@@ -53,7 +79,8 @@ class DoubleDouble {
     DoubleDouble left = a - b * first;
     const double second = left.high_ / b.high_;
     left = left - b * second;
-    return joined(first, second) + DoubleDouble(left.high_ / b.high_);
+    const DoubleDouble near = joined(first, second);
+    return finite(joined(near.high_, near.low_ + left.high_ / b.high_), first);
   }
   DoubleDouble& operator+=(const DoubleDouble& other) { return *this = *this + other; }
   DoubleDouble& operator-=(const DoubleDouble& other) { return *this = *this - other; }
@@ -74,13 +101,23 @@ class DoubleDouble {
 
  private:
   constexpr DoubleDouble(double high, double low) : high_(high), low_(low) {}
+  // Where a double overflows the second part of these is NaN, and so is all that is computed from it.
+  static DoubleDouble exact_sum(double a, double b) {
+    const double s = a + b, part = s - a;
+    return {s, (a - (s - part)) + (b - part)};
+  }
+  static DoubleDouble exact_product(double a, double b) {
+    const double p = a * b;
+    return {p, detail::fused(a, b, -p)};
+  }
   /// The sum of two doubles of which the first is the larger, or 0.
   static DoubleDouble joined(double large, double small) {
     const double s = large + small;
-    return std::isfinite(s) ? DoubleDouble(s, small - (s - large)) : DoubleDouble(s);
+    return {s, small - (s - large)};
   }
-  static DoubleDouble joined(const DoubleDouble& large, double small) {
-    return joined(large.high_, large.low_ + small);
+  /// A result, or the double that takes its place if it is not finite.
+  static DoubleDouble finite(const DoubleDouble& result, double otherwise) {
+    return std::isfinite(result.high_) ? result : DoubleDouble(otherwise);
   }
 
   double high_ = 0.0, low_ = 0.0;
@@ -111,22 +148,36 @@ namespace detail {
 
 inline const DoubleDouble ln_two = DoubleDouble::sum(0.6931471805599453, 2.3190468138462996e-17);
 
-/// 1/n!
-[[nodiscard]] inline const DoubleDouble& inverse_factorial(std::size_t n) {
+/// [n]: 1/n!
+[[nodiscard]] inline const std::array<DoubleDouble, 30>& inverse_factorials() {
   static const auto values = [] {
     std::array<DoubleDouble, 30> inverse{DoubleDouble(1)};
     for (std::size_t i = 1; i < inverse.size(); ++i) inverse[i] = inverse[i - 1] / DoubleDouble(i);
     return inverse;
   }();
-  return values[n];
+  return values;
 }
 
-/// The terms from x^first/first! on, every second one, alternating: of sin x (first = 1) or cos x (0), |x| <= pi/4.
-[[nodiscard]] inline DoubleDouble alternating_series(const DoubleDouble& x, std::size_t first) {
-  const DoubleDouble square = x * x;
-  DoubleDouble sum = 0;
-  for (std::size_t n = first + 26; n > first; n -= 2) sum = (inverse_factorial(n) - sum) * square;
-  sum = 1 - sum;
+/// The sum of y^j/(first + apart j)! over all j, |y| <= 1. From `terms` on they count so little that double has digits
+/// enough.
+template <std::size_t first, std::size_t apart, std::size_t terms, std::size_t rest>
+[[nodiscard]] inline DoubleDouble power_series(const DoubleDouble& y) {
+  const auto& inverse = inverse_factorials();
+  double last = 0;
+  for (std::size_t j = terms + rest; j-- > terms;) last = last * y.high() + inverse[first + apart * j].high();
+  DoubleDouble sum = last;
+  for (std::size_t j = terms; j-- > 0;) sum = DoubleDouble::sum_of_unlike(inverse[first + apart * j], sum * y);
+  return sum;
+}
+
+/// sin x (first = 1) or cos x (0) by its series, |x| <= pi/4. The terms of either sign are summed apart, since a
+/// processor computes two sums at once.
+template <std::size_t first>
+[[nodiscard]] DoubleDouble alternating_series(const DoubleDouble& x) {
+  const DoubleDouble square = x * x, fourth = square * square;
+  const DoubleDouble more = power_series<first, 4, 5 - first, 3>(fourth);
+  const DoubleDouble less = square * power_series<first + 2, 4, 4, 3>(fourth);
+  const DoubleDouble sum = DoubleDouble::sum_of_unlike(more, -less);
   return first == 1 ? x * sum : sum;
 }
 
@@ -139,18 +190,18 @@ struct Quarter {
   // pi/2 in three parts, so that the rest has all digits up to 1e6
   constexpr double first = 1.5707963267948966, second = 6.123233995736766e-17, third = -1.4973849048591833e-33;
   const double n = std::nearbyint(angle.high() / first);
+  if (n == 0) return {angle, 0};
   const DoubleDouble rest =
       angle - DoubleDouble::product(n, first) - DoubleDouble::product(n, second) - DoubleDouble(n * third);
   return {rest, static_cast<int>(n - 4 * std::floor(n / 4))};
 }
 
-/// e^x - 1 for |x| <= 0.35: of x/2^9 by its series, then doubled nine times.
+/// e^x - 1 for |x| <= 0.35: of x/2^6 by its series, then doubled six times.
 [[nodiscard]] inline DoubleDouble small_expm1(const DoubleDouble& x) {
-  constexpr int doublings = 9;
+  constexpr int doublings = 6;
   const DoubleDouble part = ldexp(x, -doublings);
-  DoubleDouble sum = 0;
-  for (std::size_t n = 10; n > 0; --n) sum = (sum + inverse_factorial(n)) * part;
-  for (int i = 0; i < doublings; ++i) sum = 2 * sum + sum * sum;
+  DoubleDouble sum = part * power_series<1, 1, 6, 5>(part);
+  for (int i = 0; i < doublings; ++i) sum = sum * DoubleDouble::sum_of_unlike(2, sum);
   return sum;
 }
 
@@ -158,12 +209,14 @@ struct Quarter {
 
 [[nodiscard]] inline DoubleDouble sin(const DoubleDouble& x) {
   const auto [rest, number] = detail::quarter_of(x);
-  const DoubleDouble value = detail::alternating_series(rest, number % 2 == 0 ? 1 : 0);
+  const DoubleDouble value =
+      number % 2 == 0 ? detail::alternating_series<1>(rest) : detail::alternating_series<0>(rest);
   return number < 2 ? value : -value;
 }
 [[nodiscard]] inline DoubleDouble cos(const DoubleDouble& x) {
   const auto [rest, number] = detail::quarter_of(x);
-  const DoubleDouble value = detail::alternating_series(rest, number % 2 == 0 ? 0 : 1);
+  const DoubleDouble value =
+      number % 2 == 0 ? detail::alternating_series<0>(rest) : detail::alternating_series<1>(rest);
   return number == 0 || number == 3 ? value : -value;
 }
 [[nodiscard]] inline DoubleDouble tan(const DoubleDouble& x) { return sin(x) / cos(x); }

@@ -109,12 +109,16 @@ class GuidedContact {
       Number more = gap * inverse;
       const double rough = in_double(more), bend = std::abs(rough * in_double(m.a * inverse));
       if (!(bend <= 1e-3) || !(std::abs(in_double(elapsed) + rough - near) <= most)) return std::nullopt;
-      for (int step = 0; step < 6; ++step)  // each gains the digits of `bend`
-        more = (gap - more * more * (m.a / 2 + more * (higher.d3 / 6 + more * higher.d4 / 24))) * inverse;
+      const Number half_a = m.a / 2, sixth = higher.d3 / 6, small = higher.d4 / 24;
+      for (int step = 0; step < 6; ++step) {  // each gains the digits of `bend`
+        const Number nearer = (gap - more * more * (half_a + more * (sixth + more * small))) * inverse;
+        if (nearer == more) break;
+        more = nearer;
+      }
       elapsed += more;
       if (!(std::abs(rough) * constants_.rate <= 1e-13 && bend <= 1e-9)) continue;
-      m.v += more * (m.a + more * (higher.d3 / 2 + more * higher.d4 / 6));
-      m.a += more * (higher.d3 + more * higher.d4 / 2);
+      m.v += more * (m.a + more * (3 * sixth + more * (4 * small)));
+      m.a += more * (higher.d3 + more * (12 * small));
       m.offset += gap;
       Crossing<Number> contact = rule.at(i, elapsed, m);
       contact.evaluations = evaluations;

@@ -121,8 +121,11 @@ ObservedTime Decisions::decided_by_release(const Problem& problem, ObservedTime 
   if (aperiodic) return with_rests(over_window(Status::aperiodic, problem, std::move(found)));
   if (motion.kind != Kind::departs) return over_window(Status::undecided, problem, std::move(found));
   // if motion without a rest attracts it, that is told
+  const RestingMotion& departing_motion = departing(problem, side);
+  if (departing_motion.kind != Kind::departs) return over_window(Status::undecided, problem, std::move(found));
   Problem later = problem;
-  later.start.displacement = motion.sections.back().x, later.start.velocity = motion.sections.back().v;
+  const motion::State<double>& last = departing_motion.sections.back();
+  later.start.displacement = last.x, later.start.velocity = last.v;
   ObservedTime next = ExactMotion::of(later)->find_steady();
   next.simulated += found.simulated;
   next.settling = std::numeric_limits<double>::quiet_NaN();
@@ -161,6 +164,12 @@ const RestingMotion& Decisions::resting(const Problem& problem, Side side) {
   auto& known = of(problem).resting[index_of(side)];
   if (!known) known = resting_motion(problem, side);
   return *known;
+}
+
+const RestingMotion& Decisions::departing(const Problem& problem, Side side) {
+  RestingMotion& motion = *of(problem).resting[index_of(side)];
+  if (motion.sections.empty()) motion = resting_motion_in_fifty_digits(problem, side);
+  return motion;
 }
 
 }  // namespace clatter::point

@@ -18,7 +18,11 @@ std::optional<ReleasedMotion> released_motion(const Problem& problem, Side side,
 RestingMotion resting_motion(const Problem& problem, Side side) {
   if (!can_hold(problem, side)) return {};
   const RestingMotion motion = InDigits<DoubleDouble>::resting_motion(problem, side);
-  return motion.kind != RestingMotion::Kind::undecided ? motion : InDigits<WideFloat>::resting_motion(problem, side);
+  return motion.kind != RestingMotion::Kind::undecided ? motion : resting_motion_in_fifty_digits(problem, side);
+}
+
+RestingMotion resting_motion_in_fifty_digits(const Problem& problem, Side side) {
+  return InDigits<WideFloat>::resting_motion(problem, side);
 }
 
 }  // namespace clatter::point

@@ -85,10 +85,8 @@ RestingMotion run_from_release(const Problem& problem, Side side) {
     }
     motion.sections.push_back(rounded(*state));
   }
-  if (returns)
-    motion.kind = Kind::longer;
-  else if (watch.error() <= trusted_of_sections<Number>)
-    motion.kind = Kind::departs;
+  motion.kind = returns ? Kind::longer : Kind::departs;
+  if (!(watch.error() <= trusted_of_sections<Number>)) motion.sections.clear();
   return motion;
 }
 

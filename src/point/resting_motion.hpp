@@ -17,17 +17,19 @@ struct RestingMotion {
     none,       ///< the stop never releases a mass
     periodic,   ///< it rests again and again; `sections` are one period
     longer,     ///< it returns to rest only after more than RepeatFinder::longest forcing periods
-    departs,    ///< it doesn't rest any more, at least for so long; `sections` ends with its state then
+    departs,    ///< it doesn't rest any more, at least for so long; `sections`, if known, ends with its state then
     undecided,  ///< 50 digits don't tell
   };
   Kind kind = Kind::none;
   std::vector<motion::State<double>> sections{};  ///< states at the stroboscopic sections, rounded
-  double simulated = 0.0;                         ///< forcing periods, in 50 digits
+  double simulated = 0.0;                         ///< forcing periods, in more digits
 };
 
-/// Runs a problem from the release by a stop to the next one, in 50 digits, until the same stop releases the mass
-/// again.
+/// Runs a problem from the release by a stop to the next one, until the same stop releases the mass again: in 31 digits
+/// if they tell that, else in 50. Of motion that departs 31 digits may tell no more than that it does.
 [[nodiscard]] RestingMotion resting_motion(const Problem& problem, Side side);
+/// The same in 50 digits, for a stop that may hold the mass.
+[[nodiscard]] RestingMotion resting_motion_in_fifty_digits(const Problem& problem, Side side);
 
 /// A motion from a stop's release on.
 struct ReleasedMotion {

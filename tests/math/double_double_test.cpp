@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "math/fifty_digits.hpp"
 #include "support/random.hpp"
@@ -42,6 +45,48 @@ TEST(DoubleDouble, ComputesAsFiftyDigitsDo) {
     EXPECT_EQ(a < b, x < y);
     EXPECT_EQ(a >= b, x >= y);
     EXPECT_EQ(exact(floor(a)), floor(x));
+  }
+}
+
+/// Any double but NaN: every exponent is as likely, subnormal numbers included; sometimes 0 or infinite.
+double any_double(std::mt19937_64& random) {
+  for (;;) {
+    const double value = std::bit_cast<double>(random());
+    const std::uint64_t pick = random() % 64;
+    if (pick == 0) return std::copysign(0.0, value);
+    if (pick == 1) return std::copysign(std::numeric_limits<double>::infinity(), value);
+    if (pick < 8)
+      return std::copysign(std::ldexp(std::bit_cast<double>(random() >> 12 | 0x3ffull << 52), -1070), value);
+    if (!std::isnan(value)) return value;
+  }
+}
+
+TEST(DoubleDouble, FusesLikeTheStandardLibrary) {
+  std::mt19937_64 random(60);
+  for (int i = 0; i < 400000; ++i) {
+    const double a = any_double(random), b = any_double(random), p = a * b;
+    for (const double c : {-p, any_double(random), std::nextafter(-p, 0.0)}) {
+      const double one = math::detail::fused(a, b, c), other = std::fma(a, b, c);
+      if (std::isnan(other)) {
+        EXPECT_TRUE(std::isnan(one)) << a << ' ' << b << ' ' << c;
+      } else {
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(one), std::bit_cast<std::uint64_t>(other)) << a << ' ' << b << ' ' << c;
+      }
+    }
+  }
+}
+
+TEST(DoubleDouble, ResultsBeyondDoubleAreThoseOfDouble) {
+  std::mt19937_64 random(63);
+  for (int i = 0; i < 100000; ++i) {
+    const double a = any_double(random), b = any_double(random);
+    const DoubleDouble x = a, y = b;
+    for (const auto& [value, right] : {std::pair{x + y, a + b}, {x - y, a - b}, {x * y, a * b}, {x / y, a / b}}) {
+      if (std::isfinite(right)) continue;
+      EXPECT_FALSE(isfinite(value)) << a << ' ' << b;
+      EXPECT_EQ(isnan(value), std::isnan(right)) << a << ' ' << b;
+      EXPECT_EQ(std::signbit(value.high()) || isnan(value), std::signbit(right) || isnan(value)) << a << ' ' << b;
+    }
   }
 }
 
