@@ -11,15 +11,21 @@ SHIM = os.environ.get("CLATTER_FAULTS")
 needs_shim = unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
 
 
+def shim_for(test):
+    """The library for LD_PRELOAD, in which a blank ends a path: by a link beside the folder of a test."""
+    link = test.directory.with_suffix(".so")
+    link.symlink_to(SHIM or "none")
+    test.addCleanup(link.unlink)
+    return str(link)
+
+
 class FaultyCalls(StoppedRuns):
     def setUp(self):
         super().setUp()
         self.sweep(nu=40, xs=25)
         self.whole = self.undisturbed()
         self.marker = self.directory.with_suffix(".happened")
-        self.shim = self.directory.with_suffix(".so")  # in LD_PRELOAD a blank ends a path
-        self.shim.symlink_to(SHIM or "none")
-        self.addCleanup(self.shim.unlink)
+        self.shim = shim_for(self)
 
     def small_disk(self, kibibytes):
         return small_disk(self.directory.with_suffix(".disk"), kibibytes)

@@ -5,6 +5,7 @@ import subprocess
 import unittest
 
 from command_line import CLATTER, LONGEST, SANITIZED, SMALL, CommandLine
+from faulty_calls import shim_for
 
 SMALL_INI = SMALL.replace('nu = "linspace(0.5, 1.5, 5)"', "nu = linspace(0.5, 1.5, 5)  ; an axis")
 
@@ -84,11 +85,12 @@ class Ini(CommandLine):
     @unittest.skipIf(SANITIZED, "a sanitizer has comparisons of its own")
     def test_the_work_of_a_long_file_grows_as_its_length(self):
         """40 000 keys took nine seconds: each was compared with all before it. Here comparisons are counted."""
+        library = shim_for(self)
 
         def comparisons(keys, ending):
             text = "[scene]\n" + "".join(f"k{i:06} = 1\n" for i in range(keys))
             told = self.directory / "comparisons"
-            shim = {"LD_PRELOAD": os.environ["CLATTER_FAULTS"], "CLATTER_COMPARISONS": str(told)}
+            shim = {"LD_PRELOAD": library, "CLATTER_COMPARISONS": str(told)}
             result = self.clatter("plan", self.write("long" + ending, text), environment=shim)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(":2:1: unknown key 'k000000' in [scene]", result.stderr)
