@@ -42,11 +42,13 @@ class RegressRuns(unittest.TestCase):
         )
 
     def program(self, **commands):
-        """A clatter that has all outputs ready, but for those that it makes by a shell command, from "$@"."""
+        """A clatter that has all outputs ready, but for those that it makes by a shell command, from "$@". It checks
+        files, too: else an interpreter would be started to read each of them."""
         path = self.folder / "clatter"
         others = "\n".join(f"*/{name}.toml) {command} ;;" for name, command in commands.items())
         path.write_text(
             f"""#!/bin/sh
+[ "$1" = run ] || exec "{CLATTER}" "$@"
 case "$2" in
 {others}
 *) name=${{2##*/}}; cp "{self.outputs}/${{name%.toml}}.h5" "$4" ;;

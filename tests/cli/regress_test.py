@@ -189,7 +189,7 @@ class Regress(RegressRuns):
             drive_si="x_max at 1 of 501",
             regimes="impact_word at 1 of 8181",
             transient="h5diff finds what isn't seen here",
-            asymmetric="'more' is no variable as clatter writes it",
+            asymmetric="'more' is a group or a type, not a variable",
             fig02="can't be read",
             fig03="no baseline",
             fig24="no output",
