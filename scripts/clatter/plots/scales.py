@@ -216,8 +216,21 @@ class RoomyLocator(ticker.MaxNLocator):
         super().__init__(nbins=self.MOST, steps=[1, 2, 5, 10], integer=integer)
         self.common, self.is_across = formatter, is_across
         self.font_size = rcParams[f"{'x' if is_across else 'y'}tick.labelsize"]  # a later draw may have another style
+        self.known = {}  # ticks by all that decides them: to lay out and draw a picture asks for them dozens of times
 
     def tick_values(self, low, high):
+        key = (low, high, *self.room())
+        if key not in self.known:
+            self.known[key] = self.roomy_ticks(low, high)
+        return self.known[key]
+
+    def room(self):
+        """The length of the axis in points, its limits and its scale."""
+        axes, limits = self.axis.axes, self.axis.get_view_interval()
+        length = axes.bbox.width if self.is_across else axes.bbox.height
+        return length * 72.0 / axes.figure.dpi, *limits, self.axis.get_scale()
+
+    def roomy_ticks(self, low, high):
         for bins in range(self.MOST, 0, -1):
             self.set_params(nbins=bins)
             ticks = super().tick_values(low, high)
@@ -229,9 +242,8 @@ class RoomyLocator(ticker.MaxNLocator):
         """Whether the numbers of these ticks stand apart."""
         if len(ticks) < 2:
             return True
-        axes, side = self.axis.axes, "x" if self.is_across else "y"
-        size, length = self.font_size, axes.bbox.width if self.is_across else axes.bbox.height
+        length, *limits, _ = self.room()
         scale = self.axis.get_transform().transform
-        share = np.diff(scale(ticks)).min() / np.ptp(scale(np.array(getattr(axes, f"get_{side}lim")())))
+        share = np.diff(scale(ticks)).min() / np.ptp(scale(np.array(limits)))
         longest = max(map(len, self.common.format_ticks(ticks)))
-        return share * length * 72.0 / axes.figure.dpi >= size * ((LETTER * longest + 1.0) if self.is_across else 1.8)
+        return share * length >= self.font_size * ((LETTER * longest + 1.0) if self.is_across else 1.8)
