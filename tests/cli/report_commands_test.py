@@ -3,6 +3,7 @@
 import json
 import math
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -26,7 +27,17 @@ def toml(**sections):
     return "\n".join(lines) + "\n"
 
 
+# In place of the picture of a page, whose commands alone matter here: to draw one takes longer than all else.
+NO_PICTURE = ("<svg/>", [], "nothing")
+
+
 class Commands(ReportRuns):
+    def setUp(self):
+        super().setUp()
+        self.without_pictures = mock.patch("clatter.reports.page.picture", return_value=NO_PICTURE)
+        self.without_pictures.start()
+        self.addCleanup(mock.patch.stopall)
+
     def check_text(self, name, text, command="run"):
         """Makes the output of a configuration that the user no longer has, and checks it."""
         self.run_config(self.write(f"{name}.toml", text), f"{name}.h5", command=command)
@@ -74,7 +85,8 @@ class Commands(ReportRuns):
         drive = {key: value for key, value in DRIVE.items() if key not in sweep}
         self.check_text("drive", toml(machine=drive, sweep=sweep, observe={**OBSERVE, "attractor": True}))
 
-    def test_axes_with_infinite_values_have_commands_and_motion(self):
+    def test_axes_with_infinite_values_have_commands_motion_and_pictures(self):
+        self.without_pictures.stop()
         soft = {key: value for key, value in FORCED.items() if key != "R"}
         for follow in ("", "stop_stiffness"):
             sweep = {"stop_stiffness": [1e2, 1e4, math.inf], "nu": [0.9, 1.0], "follow": follow}
