@@ -22,7 +22,7 @@ def shim_for(test):
 class FaultyCalls(StoppedRuns):
     def setUp(self):
         super().setUp()
-        self.sweep(nu=40, xs=25)
+        self.sweep(nu=20, xs=25)
         self.whole = self.undisturbed()
         self.marker = self.directory.with_suffix(".happened")
         self.shim = shim_for(self)
