@@ -6,7 +6,7 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 import random
 import unittest
 
-from plot_checks import overlapping_texts, texts_beyond
+from plot_checks import crowded_texts
 from plot_pictures import PlotFolder, choice
 from script_runs import run_script
 
@@ -44,7 +44,7 @@ class Captions(PlotFolder):
     def figure(self, *names, **options):
         files = [str(self.folder / f"{name}.h5") for name in names]
         figure = pictures.shared_figure(choice(files=files, backbone=False, **options))
-        self.assertEqual((overlapping_texts(figure), texts_beyond(figure)), ([], []))
+        self.assertEqual(crowded_texts(figure), ([], []))
         return figure
 
     def told(self, figure):

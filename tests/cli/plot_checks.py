@@ -3,7 +3,8 @@
 import re
 import sys
 import xml.etree.ElementTree
-from itertools import combinations
+
+import numpy as np
 
 from command_line import SOURCE
 
@@ -65,21 +66,31 @@ def texts_with_boxes(figure):
 
 def texts_beyond(figure, texts=None):
     """Texts that a figure cuts off; they are measured unless they are given."""
+    texts = texts or texts_with_boxes(figure)
+    low, high = corners(texts)
     room = figure.bbox.padded(1)
-    return [
-        text
-        for text, box in texts or texts_with_boxes(figure)
-        if min(box.x0 - room.x0, room.x1 - box.x1, box.y0 - room.y0, room.y1 - box.y1) < 0
-    ]
+    cut = ((low < room.min) | (high > room.max)).any(axis=1)
+    return [texts[place][0] for place in np.flatnonzero(cut)]
 
 
 def overlapping_texts(figure, texts=None):
     """Pairs of texts of a figure that lie on each other; they are measured unless they are given."""
-    return [
-        (one, other)
-        for (one, box), (other, second) in combinations(texts or texts_with_boxes(figure), 2)
-        if min(box.x1, second.x1) - max(box.x0, second.x0) > 1 and min(box.y1, second.y1) - max(box.y0, second.y0) > 1
-    ]
+    texts = texts or texts_with_boxes(figure)
+    low, high = corners(texts)
+    common = np.minimum(high[:, None], high) - np.maximum(low[:, None], low)
+    pairs = np.argwhere(np.triu((common > 1).all(axis=2), 1))
+    return [(texts[one][0], texts[other][0]) for one, other in pairs]
+
+
+def crowded_texts(figure):
+    """Both, of texts that are measured once: pairs that lie on each other, and those that are cut off."""
+    texts = texts_with_boxes(figure)
+    return overlapping_texts(figure, texts), texts_beyond(figure, texts)
+
+
+def corners(texts):
+    """The lower left and the upper right corners of the boxes of texts, in pixels."""
+    return tuple(np.array([getattr(box, corner) for _, box in texts]).reshape(-1, 2) for corner in ("min", "max"))
 
 
 def numbers_beyond(axes):

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.colors import to_hex
 
 from command_line import CLATTER
-from plot_checks import overlapping_texts, texts_beyond
+from plot_checks import crowded_texts
 from plot_pictures import PlotFolder, choice
 from script_runs import run_script
 
@@ -39,8 +39,7 @@ class Phases(PlotFolder):
 
     def figure(self, name, **options):
         figure = pictures.single_figure(self.output(name), choice(only=("impact_phase",), **options))
-        self.assertEqual(overlapping_texts(figure), [])
-        self.assertEqual(texts_beyond(figure), [])
+        self.assertEqual(crowded_texts(figure), ([], []))
         return figure
 
     def assert_quarters(self, axes):

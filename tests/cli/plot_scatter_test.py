@@ -8,7 +8,7 @@ import unittest
 import h5py
 import numpy as np
 
-from plot_checks import overlapping_texts, texts_beyond
+from plot_checks import crowded_texts
 from plot_pictures import PlotFolder, choice
 from script_runs import run_script
 
@@ -40,7 +40,7 @@ class Scatter(PlotFolder):
 
     def figure(self, name, **options):
         figure = pictures.single_figure(self.output(name), choice(**options))
-        self.assertEqual((overlapping_texts(figure), texts_beyond(figure)), ([], []))
+        self.assertEqual(crowded_texts(figure), ([], []))
         return figure
 
     def dots(self, axes):

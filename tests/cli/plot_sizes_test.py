@@ -9,7 +9,7 @@ import unittest
 from unittest import mock
 
 from command_line import SOURCE
-from plot_checks import overlapping_texts, texts_beyond
+from plot_checks import crowded_texts
 from plot_pictures import Pictures, choice
 from script_runs import run_script
 
@@ -36,7 +36,7 @@ class Sizes(Pictures):
 
     def assert_room(self, figure, size):
         self.assertEqual(tuple(figure.get_size_inches()), size)
-        self.assertEqual((overlapping_texts(figure), texts_beyond(figure)), ([], []))
+        self.assertEqual(crowded_texts(figure), ([], []))
         panels = [axes for axes in figure.axes if axes.axison and axes.get_label() != "<colorbar>"]
         self.assertGreaterEqual(min(axes.get_position().height for axes in panels) * size[1], LOWEST)
         frames = [axes.get_window_extent() for axes in panels]

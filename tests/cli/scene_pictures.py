@@ -4,7 +4,7 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
 
-from plot_checks import Svg, overlapping_texts, texts_beyond
+from plot_checks import Svg, crowded_texts
 from plot_pictures import PlotFolder, choice
 from script_runs import run_script
 
@@ -93,7 +93,7 @@ class ScenePictures(PlotFolder):
     def figure(self, name, **options):
         """The picture of a file, whose texts lie apart and within it."""
         figure = pictures.single_figure(self.output(name), choice(**options))
-        self.assertEqual((overlapping_texts(figure), texts_beyond(figure)), ([], []), name)
+        self.assertEqual(crowded_texts(figure), ([], []), name)
         return figure
 
     def draw(self, *names, arguments=()):

@@ -1,7 +1,6 @@
 """Whether a picture of a given size has room for its texts and panels, and the smallest size of its shape that has."""
 
-from itertools import combinations
-
+import numpy as np
 from matplotlib.text import Text
 
 from . import style
@@ -64,7 +63,7 @@ def crowding(figure):
     legends = [legend.get_window_extent() for legend in all_legends(figure)]
     if any(overlap(box, frame) for box in legends for frame in frames):
         return "its legends lie on its panels"
-    if any(overlap(one, other) for one, other in combinations(texts, 2)):
+    if any_overlap(texts):
         return "its texts lie on each other"
     room = figure.bbox
     is_cut = any(box.x0 < -1 or box.y0 < -1 or box.x1 > room.x1 + 1 or box.y1 > room.y1 + 1 for box in texts)
@@ -79,6 +78,13 @@ def overlap(one, other):
     """Whether two boxes lie on each other by more than a touch."""
     width = min(one.x1, other.x1) - max(one.x0, other.x0)
     return width > TOUCH and min(one.y1, other.y1) - max(one.y0, other.y0) > TOUCH
+
+
+def any_overlap(boxes):
+    """Whether any two of many boxes lie on each other by more than a touch."""
+    low, high = (np.array([getattr(box, corner) for box in boxes]).reshape(-1, 2) for corner in ("min", "max"))
+    common = np.minimum(high[:, None], high) - np.maximum(low[:, None], low)
+    return bool(np.triu((common > TOUCH).all(axis=2), 1).any())
 
 
 def texts_with_boxes(figure):
