@@ -1,6 +1,20 @@
-#include "point/motions_in_digits.hpp"
+#include <cmath>
+#include <utility>
+
+#include "point/in_digits.hpp"
 
 namespace clatter::point {
+namespace {
+
+/// Whether a mass may come to rest on a stop.
+bool can_hold(const Problem& problem, Side side) {
+  const Stops& stops = problem.stops;
+  const double position = side == Side::upper ? stops.upper : stops.lower,
+               R = side == Side::upper ? stops.restitution_upper : stops.restitution_lower;
+  return std::isfinite(position) && !is_soft(stops, side) && (R != 1 || has_friction(problem.friction));
+}
+
+}  // namespace
 
 std::vector<motion::State<double>> periodic_sections(const Problem& problem, const motion::State<double>& near,
                                                      std::int64_t periods) {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "point/motions_in_digits.hpp"
+#include "point/in_digits.hpp"
 #include "point/point.hpp"
 #include "support/random.hpp"
 
