@@ -160,8 +160,7 @@ RestingMotion InDigits<Number>::resting_motion(const Problem& problem, Side side
 template <class Number>
 std::optional<ReleasedMotion> InDigits<Number>::released_motion(const Problem& problem, Side side,
                                                                 std::int64_t periods) {
-  return with_every_effect(problem,
-                           [&]<Effects E>() { return run_until_released<Number, E>(problem, side, periods); });
+  return with_every_effect(problem, [&]<Effects E>() { return run_until_released<Number, E>(problem, side, periods); });
 }
 template <class Number>
 std::optional<BasicFixedPoint<Number>> InDigits<Number>::fixed_point(const Problem& problem,
