@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "citation.hpp"
-#include "commands.hpp"
+#include "commands/commands.hpp"
 #include "config/config.hpp"
+#include "help/citation.hpp"
 #include "results/version.hpp"
 #include "storage/error.hpp"
 #include "storage/journal.hpp"

@@ -10,8 +10,8 @@
 
 #include "accuracy/run_record.hpp"
 #include "motion/walls.hpp"
-#include "observables/exact_harmonics.hpp"
-#include "observables/extrema_observer.hpp"
+#include "observables/extremes/extrema_observer.hpp"
+#include "observables/harmonics/exact_harmonics.hpp"
 #include "point/rounded.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "motion/event.hpp"
-#include "observables/range.hpp"
+#include "observables/extremes/range.hpp"
 #include "point/problem.hpp"
 #include "stepping/integration.hpp"
 

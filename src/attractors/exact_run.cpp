@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "observables/multipliers.hpp"
+#include "observables/stability/multipliers.hpp"
 #include "point/exact_motion.hpp"
 #include "steady/contact_at_section.hpp"
 #include "steady/contraction.hpp"

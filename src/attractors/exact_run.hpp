@@ -8,7 +8,7 @@
 
 #include "attractors/section_state.hpp"
 #include "motion/loose_tangent.hpp"
-#include "observables/impact_word.hpp"
+#include "observables/contacts/impact_word.hpp"
 #include "point/problem.hpp"
 #include "steady/map_orbit.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "certificates/certified_point.hpp"
-#include "observables/impact_word.hpp"
+#include "observables/contacts/impact_word.hpp"
 
 namespace clatter::certificates {
 

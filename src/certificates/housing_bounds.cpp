@@ -6,7 +6,7 @@
 
 #include "branches/equations/linear_system.hpp"
 #include "certificates/error_bounds.hpp"
-#include "observables/multipliers.hpp"
+#include "observables/stability/multipliers.hpp"
 
 namespace clatter::certificates {
 namespace {

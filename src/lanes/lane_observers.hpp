@@ -2,7 +2,7 @@
 
 #include "lanes/lane_motion.hpp"
 #include "math/quintic.hpp"
-#include "observables/velocity_jumps.hpp"
+#include "observables/harmonics/velocity_jumps.hpp"
 
 namespace clatter::lanes {
 

@@ -12,7 +12,7 @@
 #include "motion/arc_constants.hpp"
 #include "motion/state.hpp"
 #include "observables/all.hpp"
-#include "observables/range.hpp"
+#include "observables/extremes/range.hpp"
 #include "scene/displacement_bound.hpp"
 #include "scene/scene.hpp"
 

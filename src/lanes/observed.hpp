@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "motion/event.hpp"
-#include "observables/extrema_observer.hpp"
-#include "observables/impacts_observer.hpp"
-#include "observables/velocity_jumps.hpp"
+#include "observables/contacts/impacts_observer.hpp"
+#include "observables/extremes/extrema_observer.hpp"
+#include "observables/harmonics/velocity_jumps.hpp"
 
 namespace clatter::lanes {
 

@@ -1,20 +1,20 @@
 #pragma once
 
 #include "observables/attractor.hpp"
-#include "observables/energy.hpp"
-#include "observables/extrema.hpp"
-#include "observables/harmonics.hpp"
-#include "observables/impact_log.hpp"
-#include "observables/impact_word.hpp"
-#include "observables/impacts.hpp"
+#include "observables/contacts/impact_log.hpp"
+#include "observables/contacts/impact_word.hpp"
+#include "observables/contacts/impacts.hpp"
+#include "observables/energy/energy.hpp"
+#include "observables/extremes/extrema.hpp"
+#include "observables/harmonics/harmonics.hpp"
 #include "observables/observable_list.hpp"
 #include "observables/period.hpp"
-#include "observables/section.hpp"
-#include "observables/sensitivity.hpp"
+#include "observables/samples/section.hpp"
+#include "observables/samples/trajectory.hpp"
+#include "observables/sensitivity/sensitivity.hpp"
 #include "observables/settling.hpp"
-#include "observables/stability.hpp"
+#include "observables/stability/stability.hpp"
 #include "observables/time_to_rest.hpp"
-#include "observables/trajectory.hpp"
 
 namespace clatter::observables {
 

@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "observables/fourier_transform.hpp"
+#include "observables/harmonics/fourier_transform.hpp"
 #include "scene/given_scene.hpp"
 #include "scene/key.hpp"
 #include "scene/quantity.hpp"

@@ -7,18 +7,18 @@
 
 #include "motion/event.hpp"
 #include "observables/all.hpp"
-#include "observables/energy_observer.hpp"
-#include "observables/extrema_observer.hpp"
-#include "observables/harmonics_observer.hpp"
-#include "observables/impact_log_observer.hpp"
-#include "observables/impact_word_observer.hpp"
-#include "observables/impacts_observer.hpp"
+#include "observables/contacts/impact_log_observer.hpp"
+#include "observables/contacts/impact_word_observer.hpp"
+#include "observables/contacts/impacts_observer.hpp"
+#include "observables/energy/energy_observer.hpp"
+#include "observables/extremes/extrema_observer.hpp"
+#include "observables/harmonics/harmonics_observer.hpp"
 #include "observables/observable_list.hpp"
 #include "observables/period_observer.hpp"
-#include "observables/section_observer.hpp"
-#include "observables/sensitivity_observer.hpp"
-#include "observables/stability_observer.hpp"
-#include "observables/trajectory_observer.hpp"
+#include "observables/samples/section_observer.hpp"
+#include "observables/samples/trajectory_observer.hpp"
+#include "observables/sensitivity/sensitivity_observer.hpp"
+#include "observables/stability/stability_observer.hpp"
 
 namespace clatter::observables {
 

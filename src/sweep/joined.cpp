@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "observables/impact_log.hpp"
+#include "observables/contacts/impact_log.hpp"
 #include "sweep/attractor_table.hpp"
 #include "sweep/output_variables.hpp"
 #include "sweep/result_dataset.hpp"

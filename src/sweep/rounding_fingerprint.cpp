@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "observables/fourier_transform.hpp"
+#include "observables/harmonics/fourier_transform.hpp"
 
 namespace clatter::sweep {
 namespace {

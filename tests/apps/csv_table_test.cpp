@@ -1,4 +1,4 @@
-#include "csv_table.hpp"
+#include "tables/csv_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <limits>
 #include <string>
 
-#include "csv_text.hpp"
 #include "storage/error.hpp"
 #include "support/random.hpp"
+#include "tables/csv_text.hpp"
 
 namespace clatter::app {
 namespace {

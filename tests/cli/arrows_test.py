@@ -64,22 +64,22 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
     r"boost/math": {
         "src/branches/resting/resting_branch.cpp",
         "src/branches/walk/walk.cpp",
-        "src/observables/bracketed_root.cpp",
-        "src/observables/quadrature.cpp",
+        "src/observables/samples/bracketed_root.cpp",
+        "src/observables/energy/quadrature.cpp",
         "src/sweep/binomial_share.cpp",
     },
     r"boost/random": {"src/config/axis_functions.cpp"},
     r"boost/program_options": {
         "src/config/ini_reader.cpp",
-        "apps/clatter/command_line.cpp",
+        "apps/clatter/terminal/command_line.cpp",
         "apps/verify/main.cpp",
     },
     r"toml": {"src/config/toml_reader.cpp"},
-    r"fftw3": {"src/observables/fourier_transform.cpp"},
-    r"Eigen": {"src/observables/multipliers.cpp", "src/branches/equations/housing_multipliers.cpp"},
+    r"fftw3": {"src/observables/harmonics/fourier_transform.cpp"},
+    r"Eigen": {"src/observables/stability/multipliers.cpp", "src/branches/equations/housing_multipliers.cpp"},
     r"nlohmann": {
-        "apps/clatter/config_schema.cpp",
-        "apps/clatter/json_output.cpp",
+        "apps/clatter/help/config_schema.cpp",
+        "apps/clatter/tables/json_output.cpp",
         "src/certificates/certificate_text.cpp",
         "apps/verify/certificate.cpp",
         "apps/verify/json.cpp",
@@ -160,7 +160,7 @@ def reached(root):
     def add(path, found):
         for name in direct.get(path, set()) - found:
             found.add(name)
-            for folder in (root / "src", path.parent):
+            for folder in (root / "src", root / "apps/clatter", path.parent):
                 add(folder / name, found)
         return found
 

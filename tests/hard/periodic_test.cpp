@@ -11,7 +11,7 @@
 #include "hard/energy.hpp"
 #include "hard/panels.hpp"
 #include "hard/tally.hpp"
-#include "observables/exact_harmonics.hpp"
+#include "observables/harmonics/exact_harmonics.hpp"
 
 namespace clatter::hard {
 namespace {

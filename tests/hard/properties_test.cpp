@@ -14,8 +14,8 @@
 #include "hard/soft_rescan.hpp"
 #include "hard/tally.hpp"
 #include "motion/tangent_map.hpp"
-#include "observables/extrema_observer.hpp"
-#include "observables/samples.hpp"
+#include "observables/extremes/extrema_observer.hpp"
+#include "observables/samples/samples.hpp"
 
 namespace clatter::hard {
 namespace {

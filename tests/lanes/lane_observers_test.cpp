@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "lanes/lane_run.hpp"
-#include "observables/extrema_observer.hpp"
-#include "observables/impacts_observer.hpp"
+#include "observables/contacts/impacts_observer.hpp"
+#include "observables/extremes/extrema_observer.hpp"
 #include "support/deviation.hpp"
 #include "support/random.hpp"
 

@@ -13,7 +13,7 @@
 #include "math/quintic.hpp"
 #include "motion/equation_of_motion.hpp"
 #include "motion/propagation.hpp"
-#include "observables/velocity_jumps.hpp"
+#include "observables/harmonics/velocity_jumps.hpp"
 #include "scene/response.hpp"
 #include "scene/stops.hpp"
 #include "support/random.hpp"

@@ -1,4 +1,4 @@
-#include "observables/energy.hpp"
+#include "observables/energy/energy.hpp"
 
 #include <gtest/gtest.h>
 

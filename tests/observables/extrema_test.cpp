@@ -1,4 +1,4 @@
-#include "observables/extrema_observer.hpp"
+#include "observables/extremes/extrema_observer.hpp"
 
 #include <gtest/gtest.h>
 

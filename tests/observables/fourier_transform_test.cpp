@@ -1,4 +1,4 @@
-#include "observables/fourier_transform.hpp"
+#include "observables/harmonics/fourier_transform.hpp"
 
 #include <gtest/gtest.h>
 

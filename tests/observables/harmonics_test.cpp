@@ -1,11 +1,11 @@
-#include "observables/exact_harmonics.hpp"
+#include "observables/harmonics/exact_harmonics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <numbers>
 
-#include "observables/impact_log_observer.hpp"
+#include "observables/contacts/impact_log_observer.hpp"
 #include "observables/runs.hpp"
 
 namespace clatter::observables {

@@ -1,4 +1,4 @@
-#include "observables/impact_word.hpp"
+#include "observables/contacts/impact_word.hpp"
 
 #include <gtest/gtest.h>
 

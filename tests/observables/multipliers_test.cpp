@@ -1,7 +1,7 @@
 // The four multipliers of motion with a loose mass: a bifurcation in closed form, their product, and difference
 // quotients.
 
-#include "observables/multipliers.hpp"
+#include "observables/stability/multipliers.hpp"
 
 #include <gtest/gtest.h>
 

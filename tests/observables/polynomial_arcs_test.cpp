@@ -8,11 +8,11 @@
 #include <numbers>
 #include <optional>
 
-#include "observables/exact_harmonics.hpp"
-#include "observables/extrema_observer.hpp"
+#include "observables/extremes/extrema_observer.hpp"
+#include "observables/harmonics/exact_harmonics.hpp"
 #include "observables/runs.hpp"
-#include "observables/samples.hpp"
-#include "observables/stability_observer.hpp"
+#include "observables/samples/samples.hpp"
+#include "observables/stability/stability_observer.hpp"
 #include "stepping/dormand_prince.hpp"
 #include "support/random.hpp"
 

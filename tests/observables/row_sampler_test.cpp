@@ -1,4 +1,4 @@
-#include "observables/row_sampler.hpp"
+#include "observables/harmonics/row_sampler.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 #include "math/fifty_digits.hpp"
 #include "motion/arc_bounds.hpp"
 #include "observables/arc_of.hpp"
-#include "observables/exact_harmonics.hpp"
-#include "observables/fourier_transform.hpp"
-#include "observables/impact_log_observer.hpp"
+#include "observables/contacts/impact_log_observer.hpp"
+#include "observables/harmonics/exact_harmonics.hpp"
+#include "observables/harmonics/fourier_transform.hpp"
 #include "observables/runs.hpp"
 #include "support/random.hpp"
 

@@ -1,4 +1,4 @@
-#include "observables/samples.hpp"
+#include "observables/samples/samples.hpp"
 
 #include <gtest/gtest.h>
 

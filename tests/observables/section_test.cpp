@@ -1,4 +1,4 @@
-#include "observables/section.hpp"
+#include "observables/samples/section.hpp"
 
 #include <gtest/gtest.h>
 

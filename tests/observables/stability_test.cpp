@@ -1,4 +1,4 @@
-#include "observables/stability_observer.hpp"
+#include "observables/stability/stability_observer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "math/fifty_digits.hpp"
-#include "observables/impacts_observer.hpp"
+#include "observables/contacts/impacts_observer.hpp"
 #include "observables/runs.hpp"
 
 namespace clatter::observables {

@@ -1,4 +1,4 @@
-#include "observables/wall_grazes.hpp"
+#include "observables/stability/wall_grazes.hpp"
 
 #include <gtest/gtest.h>
 

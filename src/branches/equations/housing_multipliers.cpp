@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "branches/equations/housing_flight.hpp"
-#include "observables/multipliers.hpp"
+#include "observables/stability/multipliers.hpp"
 
 namespace clatter::branches {
 namespace {

@@ -8,7 +8,7 @@
 #include "branches/equations/housing_flight.hpp"
 #include "branches/equations/housing_multipliers.hpp"
 #include "branches/measures/moving.hpp"
-#include "observables/extrema_observer.hpp"
+#include "observables/extremes/extrema_observer.hpp"
 
 namespace clatter::branches {
 namespace {

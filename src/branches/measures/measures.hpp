@@ -5,7 +5,7 @@
 
 #include "attractors/section_state.hpp"
 #include "branches/equations/equations.hpp"
-#include "observables/extrema.hpp"
+#include "observables/extremes/extrema.hpp"
 
 namespace clatter::branches {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "branches/equations/flight.hpp"
-#include "observables/quadrature.hpp"
+#include "observables/energy/quadrature.hpp"
 
 namespace clatter::branches {
 namespace {

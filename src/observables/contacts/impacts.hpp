@@ -1,0 +1,90 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "observables/extremes/range.hpp"
+#include "observables/observable.hpp"
+
+namespace clatter::observables {
+
+/// Counts impacts and sums the time at rest, for each stop; of soft stops the contacts, the time in contact, and the
+/// greatest force.
+struct Impacts {
+  struct Settings {
+    bool impacts = false;
+    bool of_soft_stops = false;  ///< with it: what only soft stops have
+    bool of_sticks = false;      ///< with it: the share of time in which dry friction holds the mass
+    bool loose_impacts = false;  ///< they are those of a loose mass, on walls in place of stops
+  };
+  struct Values {
+    std::array<double, 2> impacts_per_period{no_value, no_value};  ///< [stop]
+    std::array<double, 2> v_before{no_value, no_value}, v_after{no_value, no_value};
+    std::array<double, 2> impact_speed{no_value, no_value};
+    std::array<double, 2> rest_fraction{no_value, no_value};
+    double stick_fraction = no_value;
+    std::array<double, 2> contact_fraction{no_value, no_value}, contact_force_max{no_value, no_value};
+  };
+  static constexpr std::tuple fields{
+      Field{Key{"observe", "impacts", Kind::flag, "false", "true",
+                "for each stop: impacts per period, velocity before and after the "
+                "first, speed of the fastest, share of time at rest; under dry friction the share "
+                "of time stuck elsewhere"},
+            &Settings::impacts}};
+
+  [[nodiscard]] static bool wanted(const Settings& settings) { return settings.impacts; }
+  [[nodiscard]] static std::string description(const Settings&) { return "impacts"; }
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings) {
+    const Coordinate stop = stop_coordinate();
+    const bool loose = settings.loose_impacts;
+    const std::string_view not_hit = loose ? "the wall isn't hit" : "the stop isn't hit";
+    const char* const rest = loose ? "share of time pressed on the wall" : "share of time at rest on the stop";
+    std::vector<Column<Values>> all{
+        pair("impacts_per_period", "impacts per forcing period", stop, &Values::impacts_per_period),
+        missing_if(not_hit, in_relative_frame(pair("v_before", "velocity before the first impact", stop,
+                                                   &Values::v_before, Quantity::velocity))),
+        missing_if(loose ? not_hit : "the stop isn't hit, or a transient ends in the first contact with a soft one",
+                   in_relative_frame(
+                       pair("v_after", "velocity after the first impact", stop, &Values::v_after, Quantity::velocity))),
+        missing_if(not_hit, in_relative_frame(pair("impact_speed", "speed of the fastest impact", stop,
+                                                   &Values::impact_speed, Quantity::velocity))),
+        pair("rest_fraction", rest, stop, &Values::rest_fraction)};
+    if (settings.of_sticks)
+      all.push_back(scalar("stick_fraction", "share of time in which dry friction holds the mass away from rigid stops",
+                           &Values::stick_fraction));
+    if (!settings.of_soft_stops) return all;
+    all.push_back(pair("contact_fraction", "share of time in contact with the stop", stop, &Values::contact_fraction));
+    all.push_back(missing_if("the stop is rigid, or isn't there",
+                             in_si("greatest force of the soft stop",
+                                   pair("contact_force_max", "greatest force of the soft stop, per unit mass", stop,
+                                        &Values::contact_force_max, Quantity::force))));
+    return all;
+  }
+  [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
+
+  struct OfStop {
+    double count = 0.0;
+    double before = no_value;      ///< velocity before the first impact, signed
+    double after = no_value;       ///< velocity after it
+    double fastest = 0.0;          ///< speed of the fastest impact
+    double left_first = no_value;  ///< velocity at the end of the first contact with a soft stop that ends
+    double rest_time = 0.0;        ///< in tau
+    double contact_time = 0.0;     ///< with a soft stop, in tau
+    Range force{};                 ///< of a soft stop, while in contact
+
+    /// An impact or a touch with a velocity.
+    void meet(double velocity) {
+      if (count == 0.0) before = velocity;
+      count += 1.0, fastest = std::max(fastest, std::abs(velocity));
+    }
+  };
+
+  class Observer;  ///< in impacts_observer.hpp
+};
+
+}  // namespace clatter::observables

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "motion/event.hpp"
+#include "motion/housed_arc.hpp"
+#include "motion/walls.hpp"
+#include "observables/energy/quadrature.hpp"
+#include "observables/observable.hpp"
+
+namespace clatter::observables {
+
+/// The energy ledger of a main mass and a loose one, per unit of the main mass (eq. 74): its energy is
+/// (x'^2 + k x^2 + eps y'^2)/2, in the frame of a base that is shaken, whose inertial forces on both masses do work.
+class LooseEnergy {
+ public:
+  explicit LooseEnergy(const ObservedSpan& span)
+      : oscillator_(span.scene.oscillator),
+        loose_(span.scene.loose),
+        rule_{loose_.ratio, {loose_.restitution}},
+        frame_(span.scene.shaking, oscillator_, span.theta),
+        total_(span.total) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    if (!(length > 0)) return;  // before an impact at the very beginning
+    see_main(arc, begin, length);
+    if constexpr (motion::Housed<A>) see_loose(arc, arc.loose, begin, length);
+  }
+  void event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind != Kind::strike && event.kind != Kind::press) return;
+    lose(event.side, event.before, event.after);
+    loose_v_ = event.main.after + event.after;
+  }
+
+  /// The terms of the ledger, the observed time ending with displacement x and velocity v.
+  struct Ledger {
+    double work = 0.0, damped = 0.0, growth = 0.0;
+    std::array<double, 2> lost{}, impulse{};  ///< [wall]
+
+    [[nodiscard]] double residual() const { return work - damped - lost[0] - lost[1] - growth; }
+  };
+  [[nodiscard]] Ledger finish(double x, double v) {
+    see_begin(x, v);
+    const double growth = energy(x, v, loose_v_, frame_end()) -
+                          (begin_ ? energy(begin_->x, begin_->v, begin_loose_.value_or(0.0), frame_begin()) : 0.0);
+    return {work_, damped_, growth, lost_, impulse_};
+  }
+  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
+
+ private:
+  template <class A>
+  void see_main(const A& arc, double begin, double length) {
+    see_begin(arc.start().x, arc.start().v);
+    const bool is_carrying = arc.constants().carried != 0;
+    over(arc.constants().rate, length, [&](double s, double weight) {
+      const motion::Motion<double> m = arc.at(s);
+      const Frame b = frame_at(m.sine, m.cosine, begin + s);
+      const double v = m.v - b.v;
+      const double force = oscillator_.load + oscillator_.forcing * m.sine - oscillator_.stiffness * b.x -
+                           2 * oscillator_.damping * b.v - b.a;
+      work_ += weight * force * v;
+      damped_ += weight * 2 * oscillator_.damping * v * v;
+      if (is_carrying) work_ += weight * loose_.ratio * (loose_.load - b.a) * v;
+    });
+  }
+  template <class A, class Loose>
+  void see_loose(const A& main, const Loose& loose, double begin, double length) {
+    see_begin_of_loose(loose.velocity(0.0));
+    over(std::max(frame_.frequency(), 1.0), length, [&](double s, double weight) {
+      const auto [sine, cosine] = main.phase_after(s);
+      const Frame b = frame_at(sine, cosine, begin + s);
+      work_ += weight * loose_.ratio * (loose_.load - b.a) * (loose.velocity(s) - b.v);
+    });
+    loose_v_ = loose.velocity(length);
+  }
+  template <class A>
+  void see_loose(const A& main, const motion::Pressed& loose, double, double length) {
+    const double first = main.start().v, last = main.at(length).v;
+    see_begin_of_loose(first);
+    impulse_[index_of(loose.wall)] += loose_.ratio * std::abs(loose_.load * length - (last - first));
+    loose_v_ = last;
+  }
+
+  /// Displacement, velocity and acceleration of a base.
+  struct Frame {
+    double x = 0.0, v = 0.0, a = 0.0;
+  };
+  struct Place {
+    double x, v;
+  };
+
+  [[nodiscard]] bool is_shaken() const { return frame_.amplitude() != 0; }
+  [[nodiscard]] Frame frame_of(const SineCosine<double>& theta) const {
+    return {frame_.displacement(theta), frame_.velocity(theta), frame_.acceleration(theta)};
+  }
+  [[nodiscard]] Frame frame_at(double sine, double cosine, double time) const {
+    if (!is_shaken()) return {};
+    return frame_of(frame_.is_forced() ? frame_.by_force(sine, cosine) : frame_.at(time));
+  }
+  [[nodiscard]] Frame frame_begin() const { return is_shaken() ? frame_of(frame_.at(0.0)) : Frame{}; }
+  [[nodiscard]] Frame frame_end() const { return is_shaken() ? frame_of(frame_.at(total_)) : Frame{}; }
+
+  [[nodiscard]] double energy(double x, double v, double loose_v, const Frame& b) const {
+    const double X = x - b.x, V = v - b.v, Y = loose_v - b.v;
+    return (V * V + oscillator_.stiffness * X * X + loose_.ratio * Y * Y) / 2;
+  }
+  void see_begin(double x, double v) {
+    if (!begin_) begin_ = Place{x, v};
+  }
+  void see_begin_of_loose(double v) {
+    if (!begin_loose_) begin_loose_ = v;
+  }
+  /// An impact: its impulse from z', as the velocities of the main mass differ by less than their digits if the loose
+  /// one is very light.
+  void lose(Side side, double before, double after) {
+    lost_[index_of(side)] += rule_.loss(before, after);
+    impulse_[index_of(side)] += rule_.share() * std::abs(before - after);
+  }
+  /// Gauss-Legendre quadrature by panels in which nothing turns by more than a few radians.
+  template <class Add>
+  void over(double rate, double length, const Add& add) {
+    const auto panels = static_cast<std::size_t>(std::ceil(length * rate / 2));
+    over_panels<20>(length, panels, add);
+    evaluations_ += 20 * static_cast<double>(panels);
+  }
+
+  Oscillator oscillator_;
+  LooseMass loose_;
+  motion::WallRule<double> rule_;
+  FrameMotion frame_;
+  double total_;
+  std::optional<Place> begin_{};         ///< of the main mass
+  std::optional<double> begin_loose_{};  ///< y'
+  double loose_v_ = 0.0;                 ///< y', where it was seen last
+  double work_ = 0.0, damped_ = 0.0, evaluations_ = 0.0;
+  std::array<double, 2> lost_{}, impulse_{};  ///< [wall]
+};
+
+}  // namespace clatter::observables

@@ -1,0 +1,266 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "math/dual.hpp"
+#include "motion/arc.hpp"
+#include "motion/relative_arc.hpp"
+#include "motion/walls.hpp"
+#include "observables/sensitivity/dual_motion.hpp"
+#include "observables/sensitivity/housing_extremes.hpp"
+#include "observables/sensitivity/sensitivity_observer.hpp"
+#include "observables/stability/multipliers.hpp"
+#include "scene/smooth_effects.hpp"
+
+namespace clatter::observables {
+namespace {
+
+/// By x, x', z and z' at the beginning of the period, and by the key.
+using Along = Dual<double, 5>;
+constexpr std::size_t by_x = 0, by_v = 1, by_z = 2, by_w = 3, by_key = 4;
+
+/// Follows a course with a loose mass on numbers that carry derivatives. Where a stretch ends is known; by how much
+/// that instant changes follows from the surface of its event, to first order.
+template <Effects E>
+class HousingWalk {
+ public:
+  HousingWalk(const HousingCourse& course, const ObservedSpan& span, const HousingExtremes& extremes,
+              const BasicScene<Along>& scene, const Along& mass)
+      : course_(course),
+        span_(span),
+        extremes_(extremes),
+        scene_(scene),
+        force_(force_on_ground(scene.oscillator, scene.shaking)),
+        frame_(span, scene, force_.lead),
+        mass_(mass),
+        free_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude, scene.oscillator.frequency,
+                                                 scene.oscillator.load, scene.oscillator.stiffness)),
+        carrying_(free_, scene.loose),
+        rule_{scene.loose.ratio, {scene.loose.restitution}} {}
+
+  Sensitivity::ByKey run() {
+    if (is_neutral()) return {};
+    begin(course_.front());
+    for (std::size_t i = 0; i < course_.size(); ++i) {
+      check(course_[i]);
+      if (course_[i].held == Side::none)
+        fly(i);
+      else
+        carrying_.with_constants([&](const auto& constants) { carry(i, constants); });
+    }
+    check(course_.front());
+    return closes_ ? result() : Sensitivity::ByKey{};
+  }
+
+ private:
+  using Motion = motion::Motion<Along>;
+
+  struct State {
+    Along x, v, z, w;
+    Along phase;  ///< of the force; of it only the derivatives count
+  };
+
+  /// Whether no wall meets the loose mass, which is then the same motion wherever it is.
+  [[nodiscard]] bool is_neutral() const {
+    return std::ranges::all_of(course_, [](const HousingStretch& stretch) {
+      return stretch.held == Side::none && stretch.struck == Side::none;
+    });
+  }
+  [[nodiscard]] Along place(Side wall) const { return wall == Side::upper ? scene_.loose.upper : scene_.loose.lower; }
+
+  /// At a section, in an unknown state. A wall that presses the loose mass leaves nothing of z and z'.
+  void begin(const HousingStretch& first) {
+    const motion::RelativeStart<double>& loose = first.loose;
+    state_ = {Along(first.start.x, by_x), Along(first.start.v, by_v), Along(loose.origin + loose.offset, by_z),
+              Along(loose.w, by_w), force_.lead};
+    if (first.held != Side::none) state_.z = place(first.held), state_.w = Along(0);
+  }
+
+  void fly(std::size_t i) {
+    const HousingStretch& stretch = course_[i];
+    const motion::Arc<Along, E> main(free_, start_of(stretch, free_), Along(stretch.anchor));
+    const motion::RelativeArc<Along, E> arc(main, start_of(stretch.loose), scene_.loose.load);
+    const Motion end = main.at(Along(stretch.length)), there = arc.at(Along(stretch.length));
+    const bool strikes = stretch.struck != Side::none;
+    const Along late =
+        strikes ? with_slope_of(0, (place(stretch.struck) - stretch.loose.origin - there.offset) / there.v.value)
+                : lateness_of_section(stretch.length);
+    const State before = state_;
+    pass(stretch.length, end, late);
+    state_.z = strikes ? place(stretch.struck) : there.x + there.v * late;
+    state_.w = there.v + there.a * late;
+    see(i, before, end, [&](const Along& s) { return Both{main.at(s), arc.at(s)}; });
+    meet(stretch);
+  }
+
+  /// Both masses as one. Where the wall would have to pull (eq. 72), x'' is the same before and after, so that a
+  /// release a little later changes nothing to first order: it counts as if it came at a phase of the force, like a
+  /// section.
+  template <Effects of>
+  void carry(std::size_t i, const motion::ArcConstants<Along, of>& constants) {
+    const HousingStretch& stretch = course_[i];
+    const motion::Arc<Along, of> arc(constants, start_of(stretch, constants), Along(stretch.anchor));
+    const Motion end = arc.at(Along(stretch.length));
+    const State before = state_;
+    pass(stretch.length, end, lateness_of_section(stretch.length));
+    state_.z = place(stretch.held), state_.w = Along(0);
+    see(i, before, end, [&](const Along& s) {
+      return Both{arc.at(s), {.offset = 0, .x = state_.z, .v = 0, .a = 0, .sine = 0, .cosine = 0}};
+    });
+  }
+
+  template <Effects of>
+  [[nodiscard]] Motion start_of(const HousingStretch& stretch, const motion::ArcConstants<Along, of>& constants) const {
+    return with_slopes_of(stretch.start, stretch.anchor, state_.x, state_.v, state_.phase, constants);
+  }
+  [[nodiscard]] motion::RelativeStart<Along> start_of(const motion::RelativeStart<double>& loose) const {
+    return {Along(loose.origin), with_slope_of(loose.offset, state_.z), with_slope_of(loose.w, state_.w),
+            with_slope_of(loose.v, state_.w + state_.v)};
+  }
+
+  /// By how much a section comes later: its phase over that of the force. Its value is 0, like that of an event.
+  [[nodiscard]] Along lateness_of_section(double length) const {
+    return with_slope_of(0, (force_.lead - phase_after(state_, length)) / scene_.oscillator.frequency.value);
+  }
+  [[nodiscard]] Along phase_after(const State& from, double s) const {
+    return from.phase + with_slope_of(0, scene_.oscillator.frequency * s);
+  }
+  /// To the end of a stretch.
+  void pass(double length, const Motion& end, const Along& late) {
+    state_.phase = phase_after(state_, length) + scene_.oscillator.frequency * late;
+    state_.x = end.x + end.v * late, state_.v = end.v + end.a * late;
+  }
+
+  /// An impact on a wall (eq. 70), and the loss of what is left of a chatter.
+  void meet(const HousingStretch& stretch) {
+    if (stretch.struck != Side::none) {
+      const Along speed = abs(state_.w), after = rule_.law.after(state_.w);
+      Along& fastest = fastest_[index_of(stretch.struck)];
+      if (!(fastest.value >= speed.value)) fastest = speed;
+      lost_ += rule_.loss(state_.w, after);
+      state_.v = rule_.main_after(state_.v, state_.w), state_.w = after;
+    }
+    if (!stretch.comes_to_rest) return;
+    lost_ += rule_.loss(state_.w, Along(0));
+    state_.v = rule_.main_with(state_.v, state_.w), state_.w = Along(0);
+  }
+
+  /// The main mass, and the place of the loose one.
+  struct Both {
+    Motion main, z;
+  };
+  using Least = std::array<Along, 2>;  ///< and greatest
+
+  /// Takes the extremes that lie in a stretch; `at(s)` gives both masses at an instant within it.
+  template <class At>
+  void see(std::size_t i, const State& before, const Motion& end, const At& at) {
+    const auto seen = [&](const Place& place, const auto& of) -> Along {
+      const HousingStretch& stretch = course_[i];
+      if (place.s > 0 && place.s < stretch.length) return of(at(Along(place.s)), phase_after(before, place.s), true);
+      const bool is_end = place.s > 0;
+      const State& state = is_end ? state_ : before;
+      const double sine = is_end ? end.sine.value : stretch.start.sine,
+                   cosine = is_end ? end.cosine.value : stretch.start.cosine;
+      const auto still = [&](const Along& x) { return Motion{0, x, 0, 0, sine, cosine}; };
+      return of(Both{still(state.x), still(state.z)}, state.phase, false);
+    };
+    const auto take = [&](const Extremes& extremes, Least& found, const auto& of) {
+      if (extremes.least.is_in(i)) found[0] = seen(extremes.least, of);
+      if (extremes.greatest.is_in(i)) found[1] = seen(extremes.greatest, of);
+    };
+    const auto in_frame = [&](const Motion& m, const Along& phase, bool turns) {
+      return turns ? frame_.turning_point(m, phase) : frame_.displacement(m, phase);
+    };
+    take(extremes_.x, x_,
+         [&](const Both& m, const Along& phase, bool turns) { return in_frame(m.main, phase, turns); });
+    take(extremes_.y, y_, [&](const Both& m, const Along& phase, bool turns) {
+      Motion y = m.main;
+      y.x += m.z.x, y.v += m.z.v, y.a += m.z.a;
+      return in_frame(y, phase, turns);
+    });
+    take(extremes_.z, z_, [&](const Both& m, const Along&, bool turns) {
+      return turns ? DualFrame<Along>::turning_point(m.z.x, m.z.v, m.z.a) : m.z.x;
+    });
+  }
+
+  /// A course whose stretches don't follow from each other has no derivatives.
+  void check(const HousingStretch& next) {
+    const motion::RelativeStart<double>& loose = next.loose;
+    const bool is_held = next.held != Side::none;
+    const double z = is_held ? place(next.held).value : loose.origin + loose.offset, w = is_held ? 0.0 : loose.w;
+    const motion::Motion<double>& main = next.start;
+    const double size = std::max({std::abs(main.x), std::abs(main.v), std::abs(z), std::abs(w)});
+    const auto is_same = [&](const Along& one, double other) { return std::abs(one.value - other) <= same * size; };
+    closes_ = closes_ && is_same(state_.x, main.x) && is_same(state_.v, main.v) && is_same(state_.z, z) &&
+              is_same(state_.w, w);
+  }
+
+  [[nodiscard]] Sensitivity::ByKey result() const {
+    motion::LooseJacobian map;
+    std::array<double, 4> by_number;
+    for (std::size_t row = 0; const Along* end : {&state_.x, &state_.v, &state_.z, &state_.w}) {
+      std::copy_n(end->slope.begin(), by_number.size(), map[row].begin());
+      by_number[row++] = end->slope[by_key];
+    }
+    const auto change = change_of_fixed_point(map, by_number);
+    const auto total = [&](const Along& y) {
+      double sum = y.slope[by_key];
+      for (std::size_t i = 0; i < change.size(); ++i) sum += y.slope[i] * change[i];
+      return sum;
+    };
+    const Along period = 2 * pi<double>() * span_.turns / scene_.oscillator.frequency;
+    return {.x_min = total(x_[0]),
+            .x_max = total(x_[1]),
+            .period = total(period),
+            .impact_speed = {total(fastest_[0]), total(fastest_[1])},
+            .impact_power = total(lost_ * mass_ / period),
+            .y_min = total(y_[0]),
+            .y_max = total(y_[1]),
+            .z_min = total(z_[0]),
+            .z_max = total(z_[1])};
+  }
+
+  static constexpr double same = 1e-6;  ///< relative difference of states that are one
+
+  const HousingCourse& course_;
+  const ObservedSpan& span_;
+  const HousingExtremes& extremes_;
+  const BasicScene<Along>& scene_;
+  LeadingForce<Along> force_;
+  DualFrame<Along> frame_;
+  Along mass_;                           ///< over that of the units
+  motion::ArcConstants<Along, E> free_;  ///< of the main mass alone
+  motion::CarryingOscillator<Along> carrying_;
+  motion::WallRule<Along> rule_;
+  State state_{};
+  bool closes_ = true;
+  Least x_{}, y_{}, z_{};
+  Along lost_{};
+  std::array<Along, 2> fastest_{no_derivative(), no_derivative()};  ///< [wall]
+
+  [[nodiscard]] static Along no_derivative() {
+    Along none(no_value);
+    none.slope.fill(no_value);
+    return none;
+  }
+};
+
+}  // namespace
+
+std::vector<Sensitivity::ByKey> sensitivities(const HousingCourse& course, const ObservedSpan& span,
+                                              const std::vector<Parameter>& keys) {
+  std::vector<Sensitivity::ByKey> all;
+  const HousingExtremes extremes = extremes_of(course, span);
+  for (const Parameter key : keys) {
+    auto given = with_numbers<Along>(*span.given);
+    differentiate_by(given, key, by_key);
+    const BasicScene<Along> scene = computed(given, span.units);
+    all.push_back(with_smooth_effects<true>(span.scene.oscillator, [&]<Effects E>() {
+      return HousingWalk<E>(course, span, extremes, scene, given.mass / span.units.mass).run();
+    }));
+  }
+  return all;
+}
+
+}  // namespace clatter::observables

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "motion/event.hpp"
+#include "motion/polynomial_arc.hpp"
+#include "observables/sensitivity/course.hpp"
+#include "observables/sensitivity/housing_course.hpp"
+#include "observables/sensitivity/sensitivity.hpp"
+#include "observables/stability/stability_observer.hpp"
+
+namespace clatter::observables {
+
+/// The derivatives by each key along a course, which is a whole period. Motion has to close, or they are NaN.
+[[nodiscard]] std::vector<Sensitivity::ByKey> sensitivities(const Course& course, const ObservedSpan& span,
+                                                            const std::vector<Parameter>& keys);
+/// The same with a loose mass.
+[[nodiscard]] std::vector<Sensitivity::ByKey> sensitivities(const HousingCourse& course, const ObservedSpan& span,
+                                                            const std::vector<Parameter>& keys);
+
+/// Records the course of a period; the derivatives follow from it at the end.
+class Sensitivity::Observer {
+ public:
+  Observer(const Settings& settings, const ObservedSpan& span)
+      : keys_(settings.sensitivity),
+        is_sought_(span.periodic && span.given != nullptr && span.scene.oscillator.forcing != 0),
+        is_housed_(has_loose_mass(span.scene.loose)),
+        stability_({}, span) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    if constexpr (!motion::Polynomial<A>) {  // of general methods there are none
+      if (!is_sought_) return;
+      stability_.arc(arc, begin, length);
+      if constexpr (motion::Housed<A>)
+        return housing_.push_back(stretch_of(arc.loose, {arc.start(), arc.anchor(), begin, length}));
+      // the sign of the friction, of 0 too, is against the velocity
+      const Side ahead = std::signbit(arc.constants().friction) ? Side::upper : Side::lower;
+      course_.push_back({arc.start(), arc.anchor(), begin, length, Side::none, ahead});
+      if constexpr (A::effects.stiffness) course_.back().pressed = arc.constants().stop.side;
+    }
+  }
+  void event(const motion::Event& event) {
+    if (!is_sought_) return;
+    stability_.event(event);
+    if (is_housed_) return end_housed(event);
+    if (!event.lasts()) return end_with(event);
+    if (event.is_stick() && !course_.empty() && !course_.back().end) end_with(event);
+    motion::Motion<double> place{};
+    place.x = event.place;
+    course_.push_back({place, event.place, event.time, event.length, Side::none, Side::none, event});
+  }
+
+  /// Whether a derivative that is sought doesn't exist, since the motion grazes a stop.
+  [[nodiscard]] bool grazes() const { return is_sought_ && stability_.grazes(); }
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
+    if (!is_sought_ || grazes()) return {};
+    if (is_housed_) return {sensitivities(housing_, span, keys_.list())};
+    return {sensitivities(course_, span, keys_.list())};
+  }
+  [[nodiscard]] double evaluations() const { return stability_.evaluations(); }  ///< of arcs
+
+ private:
+  template <Effects E>
+  static HousingStretch stretch_of(const motion::RelativeArc<double, E>& loose, HousingStretch of_main) {
+    of_main.loose = {loose.anchor(), loose.start().offset, loose.start().v, loose.velocity(0.0)};
+    return of_main;
+  }
+  static HousingStretch stretch_of(const motion::Pressed& loose, HousingStretch of_main) {
+    of_main.held = loose.wall;
+    return of_main;
+  }
+  /// A loose mass strikes a wall, or comes to rest on it.
+  void end_housed(const motion::Event& event) {
+    if (housing_.empty()) return;
+    if (event.kind == motion::Event::Kind::strike) housing_.back().struck = event.side;
+    if (event.kind == motion::Event::Kind::press) housing_.back().comes_to_rest = true;
+  }
+  void end_with(const motion::Event& event) {
+    if (!course_.empty()) course_.back().end = event;
+  }
+
+  ParameterSet keys_;
+  bool is_sought_, is_housed_;
+  Stability::Observer stability_;  ///< tells grazes
+  Course course_{};
+  HousingCourse housing_{};  ///< with a loose mass, in place of it
+};
+
+}  // namespace clatter::observables
