@@ -109,7 +109,6 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/point/exact_points_soft_stops.cpp",
         "src/point/double_double_motions.cpp",
         "src/point/fifty_digit_motions.cpp",
-        "src/point/motions_beyond_double.cpp",
         "src/point/reference_fixed_point.cpp",
         "src/point/fixed_point_in_housing.cpp",
         "src/point/moreau_points.cpp",
