@@ -11,6 +11,108 @@ namespace clatter::branches {
 
 using namespace clatter::branches::detail;
 
+namespace {
+
+using Linearised = OrbitEquations::Linearised;
+
+/// Whether a scene has a positive frequency and stops, or walls, in the right order, and its events follow each other.
+bool is_possible(const FollowedScene& scene, const Orbit& orbit) {
+  if (!(scene.oscillator.frequency > 0) || !(scene.stops.lower < scene.stops.upper)) return false;
+  if (has_loose_mass(scene.loose) && !(scene.loose.lower < scene.loose.upper)) return false;
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  for (std::size_t i = 0; i < orbit.size(); ++i)
+    if (!flight_of<double>(orbit, i).may_vanish(p) && !(orbit.impact(i).phase < orbit.impact(i + 1).phase))
+      return false;
+  return true;
+}
+
+/// Adds the two equations of flight i: at its end it is at the place of the next event, with the coordinate of that.
+void add_flight(const OrbitEquations& of, const Orbit& orbit, std::size_t i, const FlightEnd<First>& end,
+                Linearised& out) {
+  const std::size_t row = 2 * i, next = i + 1 == orbit.size() ? 0 : 2 * (i + 1);
+  out.residual[row] = end.beyond.value;
+  out.residual[row + 1] = end.coordinate.value - orbit.impact(i + 1).coordinate();
+  for (const auto& [equation, slope] : {std::pair(row, &end.beyond.slope), std::pair(row + 1, &end.coordinate.slope)}) {
+    out.slope(equation, 2 * i) += (*slope)[by_begin];
+    out.slope(equation, 2 * i + 1) += (*slope)[by_before] * of.speed_unit();
+    out.slope(equation, next) += (*slope)[by_end];
+    for (std::size_t k = 0; k < of.axes().size(); ++k)
+      out.slope(equation, of.first_axis() + k) += (*slope)[by_first_axis + k] * of.axes()[k].unit;
+  }
+  out.slope(row + 1, next + 1) -= (orbit.ends_mirrored(i) ? -1 : 1) * of.speed_unit();
+}
+/// False if a flight is none.
+bool add_flights(const OrbitEquations& of, const FollowedScene& scene, const Orbit& orbit, Linearised& out) {
+  const auto fly_all = [&]<Effects E>() {
+    const Flights<First, E> flights(numbers_along<First>(scene, of.axes()));
+    for (std::size_t i = 0; i < orbit.size(); ++i) {
+      Flight<First> flight = flight_of<First>(orbit, i);
+      flight.from_crest = of.is_released_at_crest(i);
+      if (flight.leaves == EventKind::stick && !(flights.start(flight) < flight.end)) return false;
+      add_flight(of, orbit, i, flights.fly(flight), out);
+    }
+    return true;
+  };
+  return with_arcs(scene, fly_all, of.stiffness_varies());
+}
+
+/// The rate of a soft stop's force, over its stiffness, at an event on it.
+First rate_of_force(const SceneNumbers<First>& p, const OrbitImpact& event) {
+  const First phase(event.phase, by_begin), v(event.before, by_before);
+  const First relaxation = p.soft_stop(event.side).relaxation();
+  const auto [f, lead] = p.force();
+  const First a = f * sin(phase + lead) + p.oscillator.load - 2 * p.oscillator.damping * v -
+                  p.oscillator.stiffness * (p.position(event.side) - relaxation * v);
+  return v + relaxation * a;
+}
+/// The force on a mass at rest on a stop.
+First force_on_stop(const SceneNumbers<First>& p, const OrbitImpact& event) {
+  const auto [f, lead] = p.force();
+  return f * sin(First(event.phase, by_begin) + lead) + p.oscillator.load -
+         p.oscillator.stiffness * p.position(event.side);
+}
+/// Of a halt the distance from a stop, or what the force lacks of a level of friction.
+First left_at_halt(const SceneNumbers<First>& p, const OrbitImpact& halt, const Condition& condition) {
+  const First x = p.middle() + First(halt.place, by_before);
+  if (condition.kind == Condition::Kind::on_stop) return x - p.position(condition.side);
+  const auto [f, lead] = p.force();
+  const double sign = sign_of(condition.side);
+  const First level = condition.kind == Condition::Kind::kinetic ? p.friction.kinetic : p.friction.static_level,
+              left = level - sign * (p.oscillator.load - p.oscillator.stiffness * x);
+  if (condition.kind == Condition::Kind::tangency) return left - abs(f);
+  return left - sign * f * sin(First(halt.phase, by_begin) + lead);
+}
+/// The number that a condition on one event makes 0.
+First left_of(const SceneNumbers<First>& p, const OrbitImpact& event, const Condition& condition) {
+  if (condition.kind == Condition::Kind::force) return rate_of_force(p, event);
+  if (condition.kind == Condition::Kind::release) return force_on_stop(p, event);
+  return left_at_halt(p, event, condition);
+}
+
+void add_condition_on_event(const OrbitEquations& of, const FollowedScene& scene, const Orbit& orbit,
+                            const Condition& condition, std::size_t row, Linearised& out) {
+  const First left = left_of(numbers_along<First>(scene, of.axes()), orbit.impacts[condition.impact], condition);
+  const std::size_t phase = of.phase_of(condition.impact);
+  out.residual[row] = left.value;
+  out.slope(row, phase) = left.slope[by_begin];
+  out.slope(row, phase + 1) = left.slope[by_before] * of.speed_unit();
+  for (std::size_t k = 0; k < of.axes().size(); ++k)
+    out.slope(row, of.first_axis() + k) = left.slope[by_first_axis + k] * of.axes()[k].unit;
+}
+void add_graze(const OrbitEquations& of, const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) {
+  out.residual[row] = orbit.impacts[impact].before;
+  out.slope(row, of.phase_of(impact) + 1) = of.speed_unit();
+}
+void add_duration(const OrbitEquations& of, const Orbit& orbit, const Condition& condition, std::size_t row,
+                  Linearised& out) {
+  const std::size_t i = condition.impact, next = (i + 1) % orbit.size();
+  out.residual[row] = orbit.impact(i + 1).phase - orbit.impact(i).phase - condition.duration;
+  out.slope(row, of.phase_of(i)) -= 1;
+  out.slope(row, of.phase_of(next)) += 1;
+}
+
+}  // namespace
+
 OrbitEquations::OrbitEquations(const FollowedScene& scene, const Orbit& shape, std::vector<Axis> axes,
                                double speed_unit, std::vector<Condition> conditions)
     : scene_(scene),
@@ -74,201 +176,27 @@ FollowedScene OrbitEquations::scene_at(const Vector& z) const {
 std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) const {
   const FollowedScene scene = scene_at(z);
   const Orbit orbit = orbit_at(z);
-  if (!(scene.oscillator.frequency > 0) || !(scene.stops.lower < scene.stops.upper)) return std::nullopt;
-  if (is_in_housing_ && !(scene.loose.ratio > 0 && scene.loose.lower < scene.loose.upper)) return std::nullopt;
-  for (const double number : z)
-    if (!std::isfinite(number)) return std::nullopt;
-  const SceneNumbers<double> p = numbers_of<double>(scene);
-  for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (!flight_of<double>(orbit, i).may_vanish(p) && !(orbit.impact(i).phase < orbit.impact(i + 1).phase))
-      return std::nullopt;
+  const bool is_finite = std::ranges::all_of(z, [](double number) { return std::isfinite(number); });
+  if (!is_finite || !is_possible(scene, orbit) || (is_in_housing_ && !(scene.loose.ratio > 0))) return std::nullopt;
   Linearised out{Vector(equations(), 0.0), Matrix(equations(), unknowns())};
-  const auto add_flights = [&]<Effects E>() {
-    const Flights<First, E> flights(numbers_along<First>(scene, axes_));
-    const std::size_t count = orbit.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      Flight<First> flight = flight_of<First>(orbit, i);
-      flight.from_crest = is_released_at_crest(i);
-      if (flight.leaves == EventKind::stick && !(flights.start(flight) < flight.end)) return false;
-      const FlightEnd<First> end = flights.fly(flight);
-      const bool closes = i + 1 == count;
-      const std::size_t row = 2 * i, next = closes ? 0 : 2 * (i + 1);
-      const double sign = orbit.ends_mirrored(i) ? -1 : 1;
-      out.residual[row] = end.beyond.value;
-      out.residual[row + 1] = end.coordinate.value - orbit.impact(i + 1).coordinate();
-      for (const auto& [equation, slope] :
-           {std::pair(row, &end.beyond.slope), std::pair(row + 1, &end.coordinate.slope)}) {
-        out.slope(equation, 2 * i) += (*slope)[by_begin];
-        out.slope(equation, 2 * i + 1) += (*slope)[by_before] * speed_unit_;
-        out.slope(equation, next) += (*slope)[by_end];
-        for (std::size_t k = 0; k < axes_.size(); ++k)
-          out.slope(equation, 2 * count + k) += (*slope)[by_first_axis + k] * axes_[k].unit;
-      }
-      out.slope(row + 1, next + 1) -= sign * speed_unit_;
-    }
-    return true;
-  };
   if (is_in_housing_)
     add_flights_in_housing(scene, orbit, out);
-  else if (!with_arcs(scene, add_flights, stiffness_varies_))
+  else if (!add_flights(*this, scene, orbit, out))
     return std::nullopt;
   std::size_t row = first_axis();
-  for (const Condition& condition : conditions_) {
-    if (condition.kind == Condition::Kind::graze)
-      add_graze(orbit, condition.impact, row, out);
-    else if (condition.kind == Condition::Kind::force)
-      add_force(scene, orbit.impacts[condition.impact], 2 * condition.impact, row, out);
-    else if (condition.kind == Condition::Kind::duration)
-      add_duration(orbit, condition, row, out);
-    else if (condition.kind == Condition::Kind::release)
-      add_release(scene, orbit.impacts[condition.impact], 2 * condition.impact, row, out);
-    else if (condition.is_of_halt())
-      add_halt(scene, orbit.impacts[condition.impact], condition, row, out);
-    else if (is_in_housing_)
-      add_multiplier_in_housing(scene, orbit, condition, row, out);
-    else
-      add_multiplier(scene, orbit, condition, row, out);
-    ++row;
-  }
+  for (const Condition& condition : conditions_) add_condition(scene, orbit, condition, row++, out);
   return out;
 }
 
-void OrbitEquations::add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const {
-  out.residual[row] = orbit.impacts[impact].before;
-  out.slope(row, phase_of(impact) + 1) = speed_unit_;
-}
-
-void OrbitEquations::add_force(const FollowedScene& scene, const OrbitImpact& event, std::size_t unknown,
-                               std::size_t row, Linearised& out) const {
-  const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
-  const First phase(event.phase, by_begin), v(event.before, by_before);
-  const First relaxation = p.soft_stop(event.side).relaxation();
-  const auto [f, lead] = p.force();
-  const First a = f * sin(phase + lead) + p.oscillator.load - 2 * p.oscillator.damping * v -
-                  p.oscillator.stiffness * (p.position(event.side) - relaxation * v);
-  const First rate = v + relaxation * a;  // of the force over kappa
-  out.residual[row] = rate.value;
-  out.slope(row, unknown) = rate.slope[by_begin];
-  out.slope(row, unknown + 1) = rate.slope[by_before] * speed_unit_;
-  for (std::size_t k = 0; k < axes_.size(); ++k)
-    out.slope(row, first_axis() + k) = rate.slope[by_first_axis + k] * axes_[k].unit;
-}
-
-void OrbitEquations::add_duration(const Orbit& orbit, const Condition& condition, std::size_t row,
-                                  Linearised& out) const {
-  const std::size_t i = condition.impact, next = (i + 1) % orbit.size();
-  out.residual[row] = orbit.impact(i + 1).phase - orbit.impact(i).phase - condition.duration;
-  out.slope(row, phase_of(i)) -= 1;
-  out.slope(row, phase_of(next)) += 1;
-}
-
-void OrbitEquations::add_halt(const FollowedScene& scene, const OrbitImpact& halt, const Condition& condition,
-                              std::size_t row, Linearised& out) const {
-  const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
-  const First x = p.middle() + First(halt.place, by_before);
-  const auto left_to_level = [&] {
-    const auto [f, lead] = p.force();
-    const double sign = sign_of(condition.side);
-    const First level = condition.kind == Condition::Kind::kinetic ? p.friction.kinetic : p.friction.static_level,
-                left = level - sign * (p.oscillator.load - p.oscillator.stiffness * x);
-    if (condition.kind == Condition::Kind::tangency) return left - abs(f);
-    return left - sign * f * sin(First(halt.phase, by_begin) + lead);
-  };
-  const First zero = condition.kind == Condition::Kind::on_stop ? x - p.position(condition.side) : left_to_level();
-  const std::size_t unknown = 2 * condition.impact;
-  out.residual[row] = zero.value;
-  out.slope(row, unknown) = zero.slope[by_begin];
-  out.slope(row, unknown + 1) = zero.slope[by_before] * speed_unit_;
-  for (std::size_t k = 0; k < axes_.size(); ++k)
-    out.slope(row, first_axis() + k) = zero.slope[by_first_axis + k] * axes_[k].unit;
-}
-
-void OrbitEquations::add_release(const FollowedScene& scene, const OrbitImpact& impact, std::size_t phase,
-                                 std::size_t row, Linearised& out) const {
-  const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
-  const auto [f, lead] = p.force();
-  const First force = f * sin(First(impact.phase, by_begin) + lead) + p.oscillator.load -
-                      p.oscillator.stiffness * p.position(impact.side);
-  out.residual[row] = force.value;
-  out.slope(row, phase) = force.slope[by_begin];
-  for (std::size_t k = 0; k < axes_.size(); ++k)
-    out.slope(row, first_axis() + k) = force.slope[by_first_axis + k] * axes_[k].unit;
-}
-
-void OrbitEquations::add_multiplier(const FollowedScene& scene, const Orbit& all, const Condition& condition,
-                                    std::size_t row, Linearised& out) const {
-  const Orbit orbit = condition.without ? all.without(*condition.without) : all;
-  const std::size_t count = orbit.size(), parameters = 2 * all.size();
-  const auto unknown_of = [&](std::size_t impact) {
-    return 2 * (impact + (condition.without && *condition.without <= impact));
-  };
-  std::vector<Link<First>> links;
-  const auto add_links = [&]<Effects E>() {
-    const Flights<Second, E> flights(numbers_along<Second>(scene, axes_));
-    for (std::size_t i = 0; i < count; ++i) {
-      const FlightEnd<Second> end = flights.fly(flight_of<Second>(orbit, i));
-      links.push_back(
-          link_of(end.beyond.slope, end.coordinate.slope, orbit.ends_mirrored(i), orbit.impact(i + 1).event));
-    }
-  };
-  const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
-  if (orbit.meets_soft_stop())
-    links = links_of_states(scene, orbit, p, stiffness_varies_);
-  else
-    with_arcs(scene, add_links, stiffness_varies_);
-  // g = c (1 + D) - sigma tr(K_n ... K_1), c the product of the links' denominators
-  const auto plain = [](const Link<First>& link) {
-    Square<double> k;
-    for (std::size_t i = 0; i < 2; ++i)
-      for (std::size_t j = 0; j < 2; ++j) k[i][j] = link.numerator[i][j].value;
-    return k;
-  };
-  const double sigma = condition.multiplier;
-  const First determinant = determinant_of(p, orbit);
-  std::vector<Square<double>> before{{{{1, 0}, {0, 1}}}}, after(count + 1, {{{1, 0}, {0, 1}}});
-  std::vector<double> c_before{1}, c_after(count + 1, 1.0);
-  for (std::size_t i = 0; i < count; ++i) {
-    before.push_back(product(plain(links[i]), before[i]));
-    c_before.push_back(c_before[i] * links[i].denominator.value);
-  }
-  for (std::size_t i = count; i-- > 0;) {
-    after[i] = product(after[i + 1], plain(links[i]));
-    c_after[i] = c_after[i + 1] * links[i].denominator.value;
-  }
-  out.residual[row] = c_before[count] * (1 + determinant.value) - sigma * (before[count][0][0] + before[count][1][1]);
-  const auto add = [&](std::size_t i, std::size_t variable, std::size_t unknown, double unit) {
-    double trace = 0;
-    const Square<double> around = product(before[i], after[i + 1]);  // tr(A dK B) = tr(B A dK)
-    for (std::size_t r = 0; r < 2; ++r)
-      for (std::size_t s = 0; s < 2; ++s) trace += around[s][r] * links[i].numerator[r][s].slope[variable];
-    const double denominator = c_before[i] * c_after[i + 1] * links[i].denominator.slope[variable];
-    out.slope(row, unknown) += unit * (denominator * (1 + determinant.value) - sigma * trace);
-  };
-  for (std::size_t i = 0; i < count; ++i) {
-    add(i, by_begin, unknown_of(i), 1.0);
-    add(i, by_before, unknown_of(i) + 1, speed_unit_);
-    add(i, by_end, unknown_of(i + 1 == count ? 0 : i + 1), 1.0);
-    for (std::size_t k = 0; k < axes_.size(); ++k) add(i, by_first_axis + k, parameters + k, axes_[k].unit);
-  }
-  for (std::size_t k = 0; k < axes_.size(); ++k)
-    out.slope(row, parameters + k) += axes_[k].unit * c_before[count] * determinant.slope[by_first_axis + k];
-  for (std::size_t i = 0; i < count; ++i) {  // the accelerations at a reversal
-    const OrbitImpact& halt = orbit.impacts[i];
-    if (halt.event != EventKind::reversal) continue;
-    Orbit others = orbit;
-    others.impacts.erase(others.impacts.begin() + static_cast<std::ptrdiff_t>(i));
-    const First factor = determinant_of(p, others) *
-                         reversal_factor(p, halt.side, First(halt.phase, by_begin), First(halt.place, by_before));
-    out.slope(row, unknown_of(i)) += c_before[count] * factor.slope[by_begin];
-    out.slope(row, unknown_of(i) + 1) += c_before[count] * factor.slope[by_before] * speed_unit_;
-  }
-  for (std::size_t i = 0; i < count; ++i) {  // longer contacts with a soft stop take more
-    if (!presses(orbit.impacts[i].event)) continue;
-    const double longer = -2 * p.soft_stop(orbit.impacts[i].side).damping.value / p.oscillator.frequency.value *
-                          c_before[count] * determinant.value;
-    out.slope(row, unknown_of(i)) -= longer;
-    out.slope(row, unknown_of(i + 1 == count ? 0 : i + 1)) += longer;
-  }
+void OrbitEquations::add_condition(const FollowedScene& scene, const Orbit& orbit, const Condition& condition,
+                                   std::size_t row, Linearised& out) const {
+  using Kind = Condition::Kind;
+  if (condition.kind == Kind::graze) return add_graze(*this, orbit, condition.impact, row, out);
+  if (condition.kind == Kind::duration) return add_duration(*this, orbit, condition, row, out);
+  if (condition.kind == Kind::force || condition.kind == Kind::release || condition.is_of_halt())
+    return add_condition_on_event(*this, scene, orbit, condition, row, out);
+  if (is_in_housing_) return add_multiplier_in_housing(scene, orbit, condition, row, out);
+  add_multiplier(scene, orbit, condition, row, out);
 }
 
 }  // namespace clatter::branches

@@ -91,16 +91,10 @@ class OrbitEquations {
   void add_flights_in_housing(const FollowedScene& scene, const Orbit& orbit, Linearised& out) const;
   void add_multiplier_in_housing(const FollowedScene& scene, const Orbit& orbit, const Condition& condition,
                                  std::size_t row, Linearised& out) const;
-  void add_release(const FollowedScene& scene, const OrbitImpact& impact, std::size_t phase, std::size_t row,
-                   Linearised& out) const;
-  void add_halt(const FollowedScene& scene, const OrbitImpact& halt, const Condition& condition, std::size_t row,
-                Linearised& out) const;
-  void add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const;
-  void add_force(const FollowedScene& scene, const OrbitImpact& event, std::size_t unknown, std::size_t row,
-                 Linearised& out) const;
-  void add_duration(const Orbit& orbit, const Condition& condition, std::size_t row, Linearised& out) const;
   void add_multiplier(const FollowedScene& scene, const Orbit& all, const Condition& condition, std::size_t row,
                       Linearised& out) const;
+  void add_condition(const FollowedScene& scene, const Orbit& orbit, const Condition& condition, std::size_t row,
+                     Linearised& out) const;
 
   FollowedScene scene_;
   Orbit shape_;
