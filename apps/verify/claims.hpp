@@ -24,7 +24,7 @@ void check_word(const Certificate& certificate, const Cycle& cycle, const Scene&
 /// leave it open.
 void check_symmetry(const Certificate& certificate, const Scene& scene, const Cycle& cycle,
                     const std::function<bool(const Ball& centre)>& returns_mirrored, Report& report);
-/// The same of motion without a loose mass.
+/// Both claims for motion without a loose mass.
 void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
                            Report& report);
 void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,

@@ -54,9 +54,10 @@ struct RecordObservables {
 /// The run of a scene from its start for a time in tau, in double, without observables.
 [[nodiscard]] RunRecord record_of(const point::Problem& scene, double duration);
 
-/// The same source run in 50 digits: the reference. It completes a chatter only long after a double would have done so.
-/// Observables are taken from its arcs, each rounded to double at its start: an error of a few roundings, which doesn't
-/// grow. The outcome is `unresolved` if `stopped`, which is called at every section, ends it.
+/// The run of a scene in 50 digits, by the source that runs it in double: the reference. It completes a chatter only
+/// long after a double would have done so. Observables are taken from its arcs, each rounded to double at its start: an
+/// error of a few roundings, which doesn't grow. The outcome is `unresolved` if `stopped`, which is called at every
+/// section, ends it.
 [[nodiscard]] RunRecord reference_of(const point::Problem& scene, double duration,
                                      const std::optional<RecordObservables>& observables = std::nullopt,
                                      const std::function<bool()>& stopped = {});

@@ -33,7 +33,7 @@ struct StartProblem : FollowedScene, point::RunSettings {
       : FollowedScene(problem, problem.is_si ? natural_units(problem) : Units{}), RunSettings(problem) {}
 };
 
-/// The same problem with its damping, or that of its soft stops, given by a parameter, if that is a way to give it.
+/// A problem whose damping, or that of its soft stops, is given by a parameter, if that is a way to give it.
 [[nodiscard]] StartProblem damped_by(const StartProblem& start, Parameter parameter);
 
 /// A scene with one of its parameters changed.

@@ -54,8 +54,8 @@ void wait_for_sooner(std::deque<Waiting>& waiting, const Record& record, const B
 [[nodiscard]] std::optional<CurvePoint> point_near(const OrbitEquations& equations, const Vector& guess,
                                                    double tolerance);
 
-/// The same of a branch that doesn't begin at another one. Throws StartError if there is none that is motion between
-/// the stops.
+/// The point at the parameter of a guess where a branch begins that doesn't begin at another one. Throws StartError if
+/// there is none that is motion between the stops.
 [[nodiscard]] CurvePoint start_near(const OrbitEquations& equations, const Vector& guess, double tolerance);
 
 /// Whether a walk begins on a bound of the range, outwards.

@@ -51,7 +51,7 @@ PeriodStart start_of_period(const RecordedMotion& from_section) {
   return {std::fmod(middle, from_section.duration)};
 }
 
-/// The same problem with the observables that are claimed, and no others.
+/// A problem that observes what a certificate claims, and nothing else.
 Problem observed(Problem problem) {
   problem.observe = {};
   problem.observe.extrema = true;
@@ -140,8 +140,8 @@ void certify_from(const Problem& at_start, const PeriodStart& start, const Recor
   keep_if_known(point, bounds);
 }
 
-/// The same of motion in which double loses its way from one rest to the next: in 50 digits. From a release there is
-/// one motion alone, so it is this one if this rests there.
+/// Certifies, in 50 digits, periodic motion in which double loses its way from one rest to the next. From a release
+/// there is one motion alone, so it is this one if this rests there.
 void certify_from_release(const Problem& section, const PointResult& result, CertifiedPoint& point) {
   for (const auto& [side, rests] : {std::pair(Side::lower, "L*"), std::pair(Side::upper, "U*")}) {
     if (result.impact_word.find(rests) == std::string::npos) continue;
@@ -187,7 +187,7 @@ std::string difference(const KnownResult& known, const PointResult& stated) {
   return std::abs(known.x_max - stated.x_max) > most ? "x_max" : "";
 }
 
-/// The same problem from the end of a run on.
+/// A problem that begins where a run of it has ended.
 Problem from_end(Problem problem, const point::End& end) {
   problem.start = end;
   if (has_loose_mass(problem.loose)) problem.loose.place = end.loose_place, problem.loose.velocity = end.loose_velocity;

@@ -25,7 +25,7 @@ namespace clatter::config {
 /// thousands? write 2000"; for whole numbers "; write it without commas: 10000"; else nothing.
 [[nodiscard]] std::string comma_hint(std::string_view text, Kind kind = Kind::number);
 
-/// The same for the first such number in a text, as in linspace(0,5, 1,5, 501).
+/// The hint for the first number with a decimal comma in a text, as in linspace(0,5, 1,5, 501).
 [[nodiscard]] std::string comma_hint_within(std::string_view text);
 
 }  // namespace clatter::config

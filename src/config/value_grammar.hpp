@@ -48,7 +48,7 @@ inline constexpr double max_points = 1e9;
 /// Reads a number, in which `pi` may stand as a number or factor: 0.5, pi, -2*pi/3, inf. Throws ConfigError.
 [[nodiscard]] double parse_number(const SourceText& source);
 
-/// The same with a unit, if there is one: 3 mm, 2*pi rad/s. Throws ConfigError.
+/// Reads a number with its unit, if there is one: 3 mm, 2*pi rad/s. Throws ConfigError.
 [[nodiscard]] Measure parse_measure(const SourceText& source);
 
 /// A number that begins a text, and all that follows it, such as a unit.
@@ -70,9 +70,9 @@ void check_units(const std::vector<Measure>& measures, const std::vector<SourceL
 /// The shortest text that reads back to the same number.
 [[nodiscard]] std::string number_text(double value);
 
-/// The same, as a TOML float: 1.0, not 1.
+/// That text as a TOML float: 1.0, not 1.
 [[nodiscard]] std::string toml_number(double value);
-/// The same with a unit, in quotes.
+/// A number and its unit as a TOML string, in quotes.
 [[nodiscard]] std::string toml_measure(double value, std::string_view unit);
 
 /// TOML text of a list of numbers, each with a unit if there is one.

@@ -13,7 +13,7 @@ inline constexpr std::size_t help_width = 80;
 /// margin.
 [[nodiscard]] std::string wrapped(std::string_view text, std::string_view margin);
 
-/// The same with a margin of blanks.
+/// Breaks a text into lines behind a margin of blanks.
 [[nodiscard]] inline std::string wrapped(std::string_view text, std::size_t indent) {
   return wrapped(text, std::string(indent, ' '));
 }

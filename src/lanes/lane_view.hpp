@@ -35,7 +35,7 @@ struct LaneSection {
   double log_area;          ///< logarithm of the factor by which soft stops have shrunk areas of states since then
 };
 
-/// The same as the lane reports it: its displacement from the load's equilibrium, its itinerary as a number.
+/// A section as the lane reports it: its displacement from the load's equilibrium, its itinerary as a number.
 struct LaneReport {
   double y, v, impacts, itinerary, log_area;
 };

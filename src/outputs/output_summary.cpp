@@ -28,7 +28,7 @@ std::string points_told(const results::FileSummary& summary, const std::string& 
   return {};
 }
 
-/// The same in a process of its own: the text may be anyone's, and its axes may take all memory.
+/// Counts the points in a process of its own: the text may be anyone's, and its axes may take all memory.
 std::string points_told_in_child(const results::FileSummary& summary, const std::string& path) try {
   const std::uint64_t stored = storage::open_input(path, "an output of clatter").stored_bytes;
   return storage::run_in_child([&] { return points_told(summary, path); }, storage::limits_for(stored));

@@ -25,8 +25,8 @@ double seconds_of_work(point::Problem scene, const Effects& effects) {
   return seconds_per_period(scene, scratch);
 }
 
-/// The same in lanes, measured on motion with an impact or two in a forcing period: chaotic with a spring, from wall to
-/// wall without one, which takes lanes of their own, as soft stops do.
+/// Seconds that lanes take for a forcing period, measured on motion with an impact or two in a forcing period: chaotic
+/// with a spring, from wall to wall without one, which takes lanes of their own, as soft stops do.
 double seconds_of_lane_work(const point::Problem& example, const Effects& effects, lanes::InstructionSet arch) {
   constexpr double nu = 0.827759, gap = 2.19231, periods = 200;
   point::Problem scene;

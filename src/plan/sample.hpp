@@ -6,7 +6,7 @@
 
 namespace clatter::plan {
 
-/// The same pseudorandom bits for a number on every machine (the finaliser of SplitMix64).
+/// Pseudorandom bits that belong to a number, on every machine (the finaliser of SplitMix64).
 inline std::uint64_t scrambled(std::uint64_t number) {
   number += 0x9E3779B97F4A7C15U;
   number = (number ^ (number >> 30U)) * 0xBF58476D1CE4E5B9U;

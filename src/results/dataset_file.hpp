@@ -23,7 +23,7 @@ struct FileHead {
 /// IoError.
 void write_file(storage::FileWriter& file, Dataset dataset, const FileHead& head);
 
-/// The same with a checksum trailer (`require_checksum`), for a file that another run of clatter will read.
+/// Writes such a file with a checksum trailer (`require_checksum`), for a file that another run of clatter will read.
 void write_file_with_checksum(storage::FileWriter& file, Dataset dataset, const FileHead& head);
 
 /// The bytes of such a file.

@@ -24,7 +24,7 @@ struct WriteSteps {
 /// Throws IoError and removes the temporary file if that fails; an older file is then untouched.
 void write_atomically(const std::string& path, const std::function<void(FileWriter&)>& write,
                       const WriteSteps& steps = {});
-/// The same with the bytes of a text.
+/// Writes the bytes of a text in this way.
 void write_atomically(const std::string& path, std::string_view text, const WriteSteps& steps = {});
 
 }  // namespace clatter::storage

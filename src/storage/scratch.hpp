@@ -50,7 +50,7 @@ class Scratch {
 
   /// Throws std::bad_alloc, or an IoError that names the output if its disk is full.
   [[nodiscard]] std::shared_ptr<const Region> region(std::size_t bytes);
-  /// The same, in memory however much is there.
+  /// A region in memory, however much is there.
   [[nodiscard]] static std::shared_ptr<const Region> region_in_memory(std::size_t bytes);
 
   /// Lets go of resident pages of the files once they are many. Call it when a thread has touched so many more pages.

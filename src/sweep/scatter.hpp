@@ -30,8 +30,8 @@ class Scatter {
   unsigned bits_;
 };
 
-/// The same in slabs: `slab` neighbours are done before those of another slab, so that their results lie together in
-/// memory. The slabs come in scattered order, and so do the numbers of each.
+/// Scattered order in slabs: `slab` neighbours are done before those of another slab, so that their results lie
+/// together in memory. The slabs come in scattered order, and so do the numbers of each.
 class ScatterInSlabs {
  public:
   ScatterInSlabs(std::size_t count, std::size_t slab)

@@ -43,7 +43,7 @@ std::string measure(bool has_unit) {
   return "(" + with_pi + "|" + product + " *" + (has_unit ? "(" + unit() + ")" : "%") + ")";
 }
 
-/// The same as an argument of a function, or between commas, where it may be a plain number.
+/// A number with its unit as an argument of a function, or between commas, where it may be a plain number.
 std::string argument(bool has_unit) { return " *(" + product + "|" + measure(has_unit) + ") *"; }
 
 /// The values of an axis as a text: a function, or a list.

@@ -36,7 +36,7 @@ std::string_view sign_of(Comparison comparison) {
   return std::ranges::find(signs, comparison, &std::pair<std::string_view, Comparison>::second)->first;
 }
 
-/// The same comparison with its sides exchanged.
+/// A comparison with its sides exchanged.
 Comparison turned(Comparison comparison) {
   switch (comparison) {
     case Comparison::less:

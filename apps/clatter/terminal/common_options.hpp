@@ -68,7 +68,7 @@ void check_name(const std::string& output, FileKind kind);
 
 /// Throws UsageError if the output would replace the configuration.
 void check_not_config(const std::string& config, const std::string& output);
-/// The same of another file that is read; `what` it is.
+/// Throws UsageError if the output would replace another file that is read; `what` it is.
 void check_not_input(const std::string& input, const std::string& output, const std::string& what);
 
 }  // namespace clatter::app

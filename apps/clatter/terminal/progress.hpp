@@ -28,7 +28,7 @@ class Progress {
 
   /// Shows that `finished` of `total` units are done, fractions included; any thread may call it.
   void show(double finished, double total);
-  /// The same if the caller knows how many seconds the rest takes.
+  /// Shows it with the seconds that the rest takes, if the caller knows them.
   void show(double finished, double total, std::optional<double> seconds_left);
 
  private:

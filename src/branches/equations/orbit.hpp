@@ -80,7 +80,7 @@ struct Orbit {
   [[nodiscard]] Orbit with(const OrbitImpact& impact, std::size_t after) const;
   [[nodiscard]] Orbit with_event(std::size_t i, EventKind event) const;  ///< event i is another one
   [[nodiscard]] Orbit without(std::size_t i) const;  ///< motion without impacts has the force's period
-  /// The same, in one repetition of what is left without impact i, which has no speed: a motion over many periods that
+  /// The motion in one repetition of what is left without impact i, which has no speed: a motion over many periods that
   /// grazes in one of them grazes in all.
   [[nodiscard]] Orbit once_with_graze(std::size_t i, bool symmetric_scene) const;
 

@@ -36,7 +36,8 @@ void each_flight(const FollowedScene& scene, const Orbit& orbit, Function&& func
   });
 }
 
-/// The same in a housing, whose motion without impacts is that of no branch.
+/// Calls `function(arc, begin, length)` for each flight in a housing, whose motion without impacts is that of no
+/// branch.
 template <class Function>
 void each_flight_in_housing(const FollowedScene& scene, const Orbit& orbit, Function&& function) {
   with_arcs_of_main(scene, [&]<Effects E>() {

@@ -32,7 +32,8 @@ struct Multipliers {
 
 /// Least and greatest displacement and velocity, which meet rigid stops to rounding; of a loose mass those of y and z.
 [[nodiscard]] observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& orbit);
-/// The same in the frame in which a scene is computed, which with a loose mass on a shaken base is that of the ground.
+/// The extrema in the frame in which a scene is computed, which with a loose mass on a shaken base is that of the
+/// ground.
 [[nodiscard]] observables::Extrema::Values extrema_as_computed(const FollowedScene& scene, const Orbit& orbit);
 
 /// Speed of the fastest impact.

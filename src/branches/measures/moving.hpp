@@ -49,7 +49,7 @@ template <class Number>
   const Number lost = rests ? Number(before * before / 2) : Number((1 - R) * (1 + R) * before * before / 2);
   return p.loose.ratio == 0 ? lost : Number(p.loose.ratio / (1 + p.loose.ratio) * lost);
 }
-/// The same on soft stops, in one repetition of a motion.
+/// The energy that soft stops take in one repetition of a motion.
 [[nodiscard]] double loss_on_soft_stops(const FollowedScene& scene, const Orbit& orbit);
 
 }  // namespace clatter::branches

@@ -24,8 +24,8 @@ namespace clatter::branches {
 /// last element is that rest. Nothing if the run doesn't come back to rest.
 [[nodiscard]] std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std::int64_t most_periods);
 
-/// The same, kept as a half if it is released from the opposite stops of a symmetric scene half a period apart: the
-/// rest follows, and only the impacts of a chatter that are too slow to matter may differ in number.
+/// A resting motion, kept as a half if it is released from the opposite stops of a symmetric scene half a period apart:
+/// the rest follows, and only the impacts of a chatter that are too slow to matter may differ in number.
 [[nodiscard]] Orbit half_of_resting(const Orbit& orbit, bool symmetric_scene);
 
 /// The impacts of a resting motion as letters, each chatter that ends in a rest as one: the impacts on the same stop
