@@ -42,7 +42,7 @@ class Decisions {
 
   OfScene& of(const Problem& problem);
   const RestingMotion& resting(const Problem& problem, Side side);
-  /// The same with its sections, if it departs.
+  /// The motion from a release with its sections, if it departs.
   const RestingMotion& departing(const Problem& problem, Side side);
   [[nodiscard]] steady::ObservedTime decided_by_release(const Problem& problem, steady::ObservedTime found, Side side);
   [[nodiscard]] steady::ObservedTime decided_by_fixed_point(const Problem& problem, steady::ObservedTime found);

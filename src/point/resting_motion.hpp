@@ -28,7 +28,7 @@ struct RestingMotion {
 /// Runs a problem from the release by a stop to the next one, until the same stop releases the mass again: in 31 digits
 /// if they tell that, else in 50. Of motion that departs 31 digits may tell no more than that it does.
 [[nodiscard]] RestingMotion resting_motion(const Problem& problem, Side side);
-/// The same in 50 digits, for a stop that may hold the mass.
+/// Runs it in 50 digits, for a stop that may hold the mass.
 [[nodiscard]] RestingMotion resting_motion_in_fifty_digits(const Problem& problem, Side side);
 
 /// A motion from a stop's release on.
