@@ -5,6 +5,8 @@
 #include <span>
 
 #include "math/number.hpp"
+#include "motion/contact_force.hpp"
+#include "motion/walls.hpp"
 #include "point/decided.hpp"
 #include "steady/contraction.hpp"
 #include "steady/doubt.hpp"
@@ -75,9 +77,9 @@ bool PeriodicMotion::passes(const SectionState& state) const {
 }
 
 SectionState after_impact(const Scene& scene, SectionState state, double size) {
-  const Stops &stops = scene.stops, rigid = rigid_ones(stops);
-  if (state.v < 0 && std::abs(state.x - rigid.lower) <= same_motion * size) state.v *= -stops.restitution_lower;
-  if (state.v > 0 && std::abs(state.x - rigid.upper) <= same_motion * size) state.v *= -stops.restitution_upper;
+  const Stops rigid = rigid_ones(scene.stops);
+  const auto stop = motion::stop_at<double>(rigid, state.v < 0 ? Side::lower : Side::upper);
+  if (state.v != 0 && std::abs(state.x - stop.position) <= same_motion * size) state.v = stop.law.after(state.v);
   const LooseMass& loose = scene.loose;
   const double wall = state.w < 0 ? loose.lower : loose.upper;
   if (state.w != 0 && std::abs(state.z - wall) <= same_motion * size) {

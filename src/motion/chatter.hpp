@@ -26,7 +26,8 @@ template <class Number, Effects E>
   using std::abs;
   const Number &a = press.force, &h = constants.h;
   const Number slope = press.rate / a, bend = abs(constants.f) / a * constants.nu * constants.nu;
-  const Number time = 2 * (rebound / a) / (1 - stop.law.R), rates = constants.natural + 2 * h + abs(slope);
+  const Number time = 2 * (rebound / a) / (1 - stop.law.share_at_rest()),
+               rates = constants.natural + 2 * h + abs(slope);
   return {time - (h + slope) * time * time / 3, (rates * rates + bend) * time * time * time};
 }
 
@@ -42,8 +43,8 @@ template <class Number, Effects E>
   const Number height = -(j / (6 * up) + 2 * h / 3) / (up * up);        // of w^3 in that of the peak
   const Number fall2 =
       (height - j * fall * fall / (2 * up) - (j - 2 * h * down) * fall * fall * fall / 6) / (down * fall);
-  const Number ratio = stop.law.R * sqrt(down / up),
-               ratio2 = stop.law.R * (down * fall2 + j * fall / up + (j / 2 - h * down) * fall * fall);
+  const Number ratio = stop.law.share_at_rest() * sqrt(down / up),
+               ratio2 = stop.law.share_at_rest() * (down * fall2 + j * fall / up + (j / 2 - h * down) * fall * fall);
   const Number flight = 1 / up + fall, flight2 = fall2 - (j / (2 * up) + h) / (up * up);
   const Number flight_by_a = -1 / (up * up) - a * fall * fall * fall, ratio_by_a = ratio * mu * fall * fall;
   const Number sum = flight / (1 - ratio);
@@ -89,8 +90,10 @@ struct ChatterRule {
 
   template <class Given = double>
   [[nodiscard]] static ChatterRule of(const BasicStops<Given>& stops) {
-    return {{low_rebound<Number>(static_cast<double>(stops.restitution_lower)),
-             low_rebound<Number>(static_cast<double>(stops.restitution_upper))}};
+    const auto low = [&](Side side) {
+      return low_rebound<Number>(static_cast<double>(restitution_at<Given>(stops, side).share_at_rest()));
+    };
+    return {{low(Side::lower), low(Side::upper)}};
   }
   /// As double sums it, for more digits: enough if the mass is then held, since a rest doesn't depend on its beginning.
   [[nodiscard]] static ChatterRule as_in_double() {
@@ -108,7 +111,7 @@ template <class Number, Effects E>
   using std::max;
   if (!(press.force > 0)) return std::nullopt;
   if (2 * rebound <= press.force * epsilon<Number>() * constants.period) return Number(0);  // too short to advance time
-  if (!(stop.law.R < 1) || rebound * (rebound / press.force) > 2 * low) return std::nullopt;
+  if (!stop.law.loses() || rebound * (rebound / press.force) > 2 * low) return std::nullopt;
   const ChatterSum<Number> sum = chatter_sum(constants, stop, press, rebound);
   return sum.bound <= accuracy * max(sum.time, Number(1 / constants.rate)) ? std::optional<Number>(sum.time)
                                                                            : std::nullopt;

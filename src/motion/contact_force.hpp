@@ -20,8 +20,7 @@ struct Stop {
 
 template <class Number, class Given = double>
 [[nodiscard]] Stop<Number> stop_at(const BasicStops<Given>& stops, Side side) {
-  if (side == Side::upper) return {side, Number(stops.upper), {Number(stops.restitution_upper)}};
-  return {side, Number(stops.lower), {Number(stops.restitution_lower)}};
+  return {side, Number(side == Side::upper ? stops.upper : stops.lower), restitution_at<Number>(stops, side)};
 }
 
 /// The force that presses a mass at rest into a stop (eq. 22), positive into it, and its rate of change.

@@ -131,7 +131,8 @@ class Neighbourhood {
   /// Takes the differences through an impact; false if they are not transversal there (eq. 29).
   [[nodiscard]] bool rebound(const Rebound& impact) {
     const Stop<double> stop = stop_at<double>(stops_, impact.side);
-    const double u = std::abs(impact.before), R = stop.law.R, force = force_ - field_.k * impact.place;
+    const double u = std::abs(impact.before), R = stop.law.share(impact.before),
+                 force = force_ - field_.k * impact.place;
     const double a_before = force - 2 * field_.h * impact.before,
                  a_after = force - 2 * friction_ - 2 * field_.h * impact.after;
     const double a = std::max(std::abs(a_before), std::abs(a_after)),

@@ -73,11 +73,11 @@ class TangentMap {
  private:
   void rebound(const Event& impact) {
     const Number before(impact.before), after(impact.after);
-    const Number slope = stop_at<Number>(stops_, impact.side).law.derivative();
     if (before == 0) return;  // it touches, and the velocity is not reversed
-    const Number force = force_ - k_ * impact.place;
+    const Restitution<Number> law = restitution_at<Number>(stops_, impact.side);
+    const Number ratio = -law.share(before), slope = law.derivative(before), force = force_ - k_ * impact.place;
     const Number a_before = force - 2 * h_ * before, a_after = force - 2 * friction_ - 2 * h_ * after;
-    multiply({{slope, Number(0), (a_after - slope * a_before) / before, slope}, slope * slope});
+    multiply({{ratio, Number(0), (a_after - slope * a_before) / before, slope}, ratio * slope});
   }
   /// The damper of a soft stop pushes from the touch on, so the acceleration jumps (eq. 53); where the mass leaves the
   /// stop nothing does.

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <utility>
 
+#include "motion/contact_force.hpp"
 #include "point/in_digits.hpp"
 
 namespace clatter::point {
@@ -8,10 +9,9 @@ namespace {
 
 /// Whether a mass may come to rest on a stop.
 bool can_hold(const Problem& problem, Side side) {
-  const Stops& stops = problem.stops;
-  const double position = side == Side::upper ? stops.upper : stops.lower,
-               R = side == Side::upper ? stops.restitution_upper : stops.restitution_lower;
-  return std::isfinite(position) && !is_soft(stops, side) && (R != 1 || has_friction(problem.friction));
+  const auto stop = motion::stop_at<double>(problem.stops, side);
+  return std::isfinite(stop.position) && !is_soft(problem.stops, side) &&
+         (stop.law.loses() || has_friction(problem.friction));
 }
 
 }  // namespace

@@ -61,19 +61,32 @@ template <class Number = double>
   return stops;
 }
 
-/// Newton's law of restitution on a stop (eq. 4), for every number type: the exact loop and its derivative, the general
-/// methods and the lanes take it from here.
+/// Newton's law of restitution on a stop (eq. 4), for every number type: the loop and its derivative, the general
+/// methods, the lanes and all bounds take it from here.
 template <class Number>
 struct Restitution {
   Number R;  ///< 0 ... 1
 
+  /// The share of the speed that an impact leaves.
+  [[nodiscard]] const Number& share(const Number& /*before*/) const { return R; }
+  /// That of the slowest impacts, to which the flights of a chatter tend.
+  [[nodiscard]] const Number& share_at_rest() const { return R; }
+  /// Whether an impact takes speed, so that flights on a stop that presses the mass become ever shorter.
+  [[nodiscard]] bool loses() const { return R < 1; }
+
   /// Velocity after an impact: 0 - R v rather than -R v, so that R = 0 leaves no negative zero.
-  [[nodiscard]] Number after(const Number& before) const { return Number(0) - R * before; }
+  [[nodiscard]] Number after(const Number& before) const { return Number(0) - share(before) * before; }
   /// Change of the velocity by an impact.
-  [[nodiscard]] Number jump(const Number& before) const { return -(Number(1) + R) * before; }
+  [[nodiscard]] Number jump(const Number& before) const { return -(Number(1) + share(before)) * before; }
   /// Derivative of the velocity after by the velocity before.
-  [[nodiscard]] Number derivative() const { return -R; }
+  [[nodiscard]] Number derivative(const Number& /*before*/) const { return -R; }
 };
+
+/// That of the stop on a side.
+template <class Number, class Given = double>
+[[nodiscard]] Restitution<Number> restitution_at(const BasicStops<Given>& stops, Side side) {
+  return {Number(side == Side::upper ? stops.restitution_upper : stops.restitution_lower)};
+}
 
 }  // namespace scene
 }  // namespace clatter

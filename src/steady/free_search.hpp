@@ -62,9 +62,11 @@ class FreeSearch {
   [[nodiscard]] bool conservative() const {
     const Stops& stops = integrator_.stops();
     if (I::effects.soft) return false;  // its period is no angle between two contacts
-    const auto keeps = [](double position, double R) { return std::isinf(position) || R == 1.0; };
-    return scene_.oscillator.damping == 0 && keeps(stops.lower, stops.restitution_lower) &&
-           keeps(stops.upper, stops.restitution_upper);
+    const auto loses = [&](Side side) {
+      const auto stop = motion::stop_at<double>(stops, side);
+      return std::isfinite(stop.position) && stop.law.loses();
+    };
+    return scene_.oscillator.damping == 0 && !loses(Side::lower) && !loses(Side::upper);
   }
   [[nodiscard]] double free_turns(const motion::State<double>& start) const {
     const Oscillator& o = scene_.oscillator;

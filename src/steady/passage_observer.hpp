@@ -18,8 +18,8 @@ class PassageObserver {
  public:
   explicit PassageObserver(const Stops& stops)
       : stops_(stops),
-        log_lower_(2 * std::log(stops.restitution_lower)),
-        log_upper_(2 * std::log(stops.restitution_upper)),
+        log_lower_(2 * std::log(restitution_at<double>(stops, Side::lower).share_at_rest())),
+        log_upper_(2 * std::log(restitution_at<double>(stops, Side::upper).share_at_rest())),
         tangent_(stops) {}
 
   template <class A>

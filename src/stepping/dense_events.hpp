@@ -8,7 +8,7 @@
 
 #include "motion/first_crossing.hpp"
 #include "motion/polynomial_arc.hpp"
-#include "stepping/flights.hpp"
+#include "stepping/modes/housing.hpp"
 
 /// Events on the dense output of a step, for certain: the Bernstein form shows two crossings within a step, too.
 namespace clatter::stepping {

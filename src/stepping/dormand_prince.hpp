@@ -85,16 +85,16 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   }
 
   /// The next step of a loose mass in its housing, and its first contact with a wall.
-  [[nodiscard]] FlightInHousing<motion::PolynomialInHousing<E.arc()>> fly_in_housing(
+  [[nodiscard]] ArcToEvent<motion::PolynomialInHousing<E.arc()>> fly_in_housing(
       const motion::State<double>& state, const motion::Motion<double>& start, double anchor,
       const motion::RelativeStart<double>& loose, const motion::Walls<double>& walls,
       double horizon) requires(E.loose) {
     const double sign = state.loose.place == 0 ? sign_of(state.loose.wall) : 0, towards = walls.load - start.a;
     go_on_from({start.offset, start.v, loose.offset, loose.w}, -sign * loose.w, sign * towards, this->constants(),
                state, anchor);
-    FlightInHousing<motion::PolynomialInHousing<E.arc()>> flight{
+    ArcToEvent<motion::PolynomialInHousing<E.arc()>> flight{
         {standing(this->constants(), state), loose.origin, walls.load, constant(here_[2]), constant(here_[3])}};
-    motion::Crossing<double>& contact = flight.contact = {0, Side::none, 0.0, flight.arc.start()};
+    motion::Crossing<double>& contact = flight.crossing = {0, Side::none, 0.0, flight.arc.start()};
     contact.side = entered(walls.places, loose.origin, here_[2], here_[3]);
     if (loose.w == 0 && towards == 0 && sign * this->constants().jerk(start) < 0)
       contact.side = state.loose.wall;  // it lies on a wall that begins to press it

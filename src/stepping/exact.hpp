@@ -66,14 +66,14 @@ class Exact : public EventDriven<Exact<N, E, Search>, N, E> {
   }
 
   /// The flight of a loose mass in its housing up to its next impact on a wall, or to the horizon.
-  [[nodiscard]] FlightInHousing<motion::RelativeArc<Number, E.arc()>> fly_in_housing(
+  [[nodiscard]] ArcToEvent<motion::RelativeArc<Number, E.arc()>> fly_in_housing(
       const motion::State<Number>&, const motion::Motion<Number>& start, const Number& anchor,
       const motion::RelativeStart<Number>& loose, const motion::Walls<Number>& walls,
       const Number& horizon) requires(E.loose) {
     const motion::Arc<Number, E.arc()> main(this->constants(), start, anchor);
-    FlightInHousing<motion::RelativeArc<Number, E.arc()>> flight{{main, loose, walls.load}};
-    flight.contact = next_contact(flight.arc, walls.places, horizon);
-    this->count_evaluations(flight.contact.evaluations);
+    ArcToEvent<motion::RelativeArc<Number, E.arc()>> flight{{main, loose, walls.load}};
+    flight.crossing = next_contact(flight.arc, walls.places, horizon);
+    this->count_evaluations(flight.crossing.evaluations);
     return flight;
   }
   /// Both masses as one while a wall presses the loose one, or for all of the time.

@@ -113,8 +113,7 @@ class IntegratorBase {
     return static_cast<double>((static_cast<double>(state.periods - origin) + state.phase_turns) * constants_.period);
   }
 
- protected:
-  using Kind = motion::Event::Kind;
+  // For the modes.
 
   /// What may hold a mass at x' = 0: the constant forces there, those of a soft stop included, and the static level.
   [[nodiscard]] motion::Holding<Number> holding_at(const motion::State<Number>& state) const requires(E.friction) {
@@ -149,47 +148,6 @@ class IntegratorBase {
     const double turns = static_cast<double>(state.periods) + static_cast<double>(state.phase_turns);
     (*listener_)(std::min(1.0, std::max(impacts_ / budget_, turns / longest_)));
     next_report_ = evaluations_ + between_reports;
-  }
-
-  template <class Observer>
-  void show_impact(const motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& before,
-                   std::int64_t origin, Observer& observer) const {
-    observer.event({Kind::impact, stop.side, time(state, origin), static_cast<double>(before), 0.0,
-                    static_cast<double>(state.v), static_cast<double>(stop.position),
-                    static_cast<double>(state.phase_turns)});
-  }
-  /// A contact with a soft stop begins or ends.
-  template <class Observer>
-  void show_contact(Kind kind, const motion::State<Number>& state, Side side, std::int64_t origin,
-                    Observer& observer) const {
-    const double v = static_cast<double>(state.v);
-    observer.event({kind, side, time(state, origin), v, 0.0, v,
-                    static_cast<double>(side == Side::upper ? stops_.upper : stops_.lower),
-                    static_cast<double>(state.phase_turns)});
-  }
-  /// A mass stays where it is: on a stop, or by friction alone.
-  template <class Observer>
-  void show_rest(const motion::State<Number>& state, Side side, const Number& turns, bool held, std::int64_t origin,
-                 Observer& observer) const {
-    const Kind kind = side == Side::none ? Kind::stick : held ? Kind::rest : Kind::chatter;
-    observer.event({kind, side, time(state, origin), 0.0, static_cast<double>(turns * constants_.period), 0.0,
-                    static_cast<double>(state.x), 0.0, held});
-  }
-  template <class Observer>
-  void show_reversal(const motion::State<Number>& state, const Number& before, const Number& after, std::int64_t origin,
-                     Observer& observer) const {
-    observer.event({.kind = Kind::reversal,
-                    .time = time(state, origin),
-                    .place = static_cast<double>(state.x),
-                    .a_before = static_cast<double>(before),
-                    .a_after = static_cast<double>(after)});
-  }
-  template <class Observer>
-  void show_chatter(const motion::State<Number>& begin, const motion::Stop<Number>& stop, const Number& turns,
-                    const Number& v_end, std::int64_t origin, Observer& observer) const {
-    observer.event({Kind::chatter, stop.side, time(begin, origin), static_cast<double>(begin.v),
-                    static_cast<double>(turns * constants_.period), static_cast<double>(v_end),
-                    static_cast<double>(stop.position), 0.0, false});
   }
 
  private:

@@ -41,30 +41,32 @@ class Moreau : public ThetaSteps<E> {
   /// and events with their times since the section `origin`.
   template <class Observer>
   [[nodiscard]] Outcome advance(motion::State<double>& state, double end, std::int64_t origin, Observer& observer) {
+    Stage<Moreau, Observer> stage(*this, state, end, origin, observer);
     sine_ = this->phase(state).sine;
     if constexpr (E.soft) begin_beyond(state);
-    if (!bounce_off(state, origin, observer)) return Outcome::event_budget;
+    if (!bounce_off(stage)) return Outcome::event_budget;
     while (end - state.phase_turns > 2 * epsilon<double>()) {
       this->report(state);
-      if (!step(state, next_turns(state.phase_turns, end), origin, observer)) return Outcome::event_budget;
+      if (!step(stage, next_turns(state.phase_turns, end))) return Outcome::event_budget;
     }
     state.phase_turns = end;
     return this->outcome_of(state);
   }
 
  private:
-  using typename Base::Kind;
+  using Kind = motion::Event::Kind;
 
   /// Takes the impact of a mass that is on a stop and moves into it, as only a start can, before any time passes; false
   /// if it is one too many.
-  template <class Observer>
-  [[nodiscard]] bool bounce_off(motion::State<double>& state, std::int64_t origin, Observer& observer) {
+  template <class Stage>
+  [[nodiscard]] bool bounce_off(Stage& stage) {
+    motion::State<double>& state = stage.state;
     for (const Side side : {Side::lower, Side::upper}) {
       if (E.soft && is_soft(this->stops(), side)) continue;
       const auto stop = motion::stop_at<double>(this->stops(), side);
       if (state.x != stop.position || !(stop.into(state.v) > 0)) continue;
       const double before = std::exchange(state.v, stop.law.after(state.v));
-      this->show_impact(state, stop, before, origin, observer);
+      stage.show_impact(stop, before);
       return this->count_impact();
     }
     return true;
@@ -112,29 +114,31 @@ class Moreau : public ThetaSteps<E> {
 
   /// Finds whether a soft stop acts in the next step, and reports a contact that begins or ends; false if it is one too
   /// many.
-  template <class Observer>
-  [[nodiscard]] bool meet(motion::State<double>& state, double length, std::int64_t origin, Observer& observer) {
+  template <class Stage>
+  [[nodiscard]] bool meet(Stage& stage, double length) {
+    motion::State<double>& state = stage.state;
     const Side was_within = state.within;
     const bool was_pressed = state.pressed;
     look_beyond(state, length / 2);
     const bool goes_on = was_pressed && state.pressed && was_within == state.within;
-    if (was_pressed && !goes_on) this->show_contact(Kind::separation, state, was_within, origin, observer);
+    if (was_pressed && !goes_on) stage.show_contact(Kind::separation, was_within);
     if (!state.pressed || goes_on) return true;
-    this->show_contact(was_within != state.within ? Kind::touch : Kind::renewal, state, state.within, origin, observer);
+    stage.show_contact(was_within != state.within ? Kind::touch : Kind::renewal, state.within);
     return this->count_impact();
   }
 
   /// A step to the phase `turns`; false if it takes one impact too many.
-  template <class Observer>
-  [[nodiscard]] bool step(motion::State<double>& state, double turns, std::int64_t origin, Observer& observer) {
+  template <class Stage>
+  [[nodiscard]] bool step(Stage& stage, double turns) {
+    motion::State<double>& state = stage.state;
     if constexpr (E.soft) {
-      if (!meet(state, (turns - state.phase_turns) * this->period(), origin, observer)) return false;
+      if (!meet(stage, (turns - state.phase_turns) * this->period())) return false;
       if (state.pressed) {
         this->in_contact(state.within, [&](const auto& constants) {
           const Free pressed = free_step(constants, state, turns);
-          if (!stand(state, pressed, turns, origin, observer)) {
-            turn(constants, state, pressed, origin, observer);
-            fly_in_contact(constants, state, pressed, origin, observer);
+          if (!stand(stage, pressed, turns)) {
+            turn(constants, stage, pressed);
+            fly_in_contact(constants, stage, pressed);
           }
           sine_ = pressed.sine;
         });
@@ -143,21 +147,21 @@ class Moreau : public ThetaSteps<E> {
       }
     }
     const Free free = free_step(this->constants(), state, turns);
-    if (stand(state, free, turns, origin, observer)) {
+    if (stand(stage, free, turns)) {
       state.phase_turns = turns, sine_ = free.sine;
       return true;
     }
-    turn(this->constants(), state, free, origin, observer);
+    turn(this->constants(), stage, free);
     const Side side = active(state, free.length);
     const auto stop = motion::stop_at<double>(this->stops(), side);
     const bool impulse = side != Side::none && stop.into(free.v) > stop.into(stop.law.after(state.v));
     bool affordable = true;
     if (!impulse) {
-      fly(slipping(state.v, free.v), 0.0, state, free, origin, observer);
+      fly(slipping(state.v, free.v), 0.0, stage, free);
     } else if (state.v == 0) {
-      rest(state, stop, turns, origin, observer);
+      rest(stage, stop, turns);
     } else {
-      collide(state, stop, free, origin, observer);
+      collide(stage, stop, free);
       affordable = this->count_impact();
     }
     state.phase_turns = turns, sine_ = free.sine;
@@ -165,29 +169,29 @@ class Moreau : public ThetaSteps<E> {
   }
 
   /// Whether friction holds the mass for a whole step, which is then reported: on a rigid stop as rest.
-  template <class Observer>
-  [[nodiscard]] bool stand(motion::State<double>& state, const Free& free, double turns, std::int64_t origin,
-                           Observer& observer) {
+  template <class Stage>
+  [[nodiscard]] bool stand(Stage& stage, const Free& free, double turns) {
+    motion::State<double>& state = stage.state;
     if constexpr (E.friction) {
       if (!this->is_rough() || state.v != 0 || free.v != 0) return false;
       const Side side = active(state, free.length);
       if (side != Side::none) state.x = motion::stop_at<double>(this->stops(), side).position;
-      this->show_rest(state, side, turns - state.phase_turns, true, origin, observer);
+      stage.show_rest(side, turns - state.phase_turns, true);
       slid_ = 0.0;
       return true;
     }
     return false;
   }
   /// Reports that the mass has turned back since its last slip, in this step or at the end of the one before.
-  template <class Constants, class Observer>
-  void turn(const Constants& constants, const motion::State<double>& state, const Free& free, std::int64_t origin,
-            Observer& observer) {
+  template <class Constants, class Stage>
+  void turn(const Constants& constants, Stage& stage, const Free& free) {
+    motion::State<double>& state = stage.state;
     if constexpr (E.friction) {
       const double way = free.v != 0 ? free.v : state.v;
       if (!this->is_rough() || way == 0) return;
       const double push = force(constants, state.x, 0.0, sine_), rubs = std::copysign(this->slips().kinetic, way);
       const bool turns_back = std::exchange(slid_, way) * way < 0 && (push - rubs) * (push + rubs) > 0;
-      if (turns_back && state.v * way <= 0) this->show_reversal(state, push + rubs, push - rubs, origin, observer);
+      if (turns_back && state.v * way <= 0) stage.show_reversal(push + rubs, push - rubs);
     }
   }
   /// The constants of a free mass in a step between two velocities.
@@ -196,67 +200,68 @@ class Moreau : public ThetaSteps<E> {
       if (this->is_rough()) return this->slips().towards((v != 0 ? v : v_end) > 0 ? Side::upper : Side::lower);
     return this->constants();
   }
-  template <class Constants, class Observer>
-  void fly_in_contact(const Constants& constants, motion::State<double>& state, const Free& pressed,
-                      std::int64_t origin, Observer& observer) const {
+  template <class Constants, class Stage>
+  void fly_in_contact(const Constants& constants, Stage& stage, const Free& pressed) const {
+    motion::State<double>& state = stage.state;
     const double position = constants.stop.position;
     if constexpr (E.friction)
       if (this->is_rough()) {
         const Side ahead = (state.v != 0 ? state.v : pressed.v) > 0 ? Side::upper : Side::lower;
-        return this->slips().in_contact(
-            state.within, ahead, [&](const auto& slip) { fly(slip, position, state, pressed, origin, observer); });
+        return this->slips().in_contact(state.within, ahead,
+                                        [&](const auto& slip) { fly(slip, position, stage, pressed); });
       }
-    fly(constants, position, state, pressed, origin, observer);
+    fly(constants, position, stage, pressed);
   }
 
   /// Moves on to the end of a step; arcs are given by distances from an anchor.
-  template <Effects Of, class Observer>
-  void fly(const motion::ArcConstants<double, Of>& constants, double anchor, motion::State<double>& state,
-           const Free& free, std::int64_t origin, Observer& observer) const {
+  template <Effects Of, class Stage>
+  void fly(const motion::ArcConstants<double, Of>& constants, double anchor, Stage& stage, const Free& free) const {
+    motion::State<double>& state = stage.state;
     const double x = state.x + free.length * (theta_ * free.v + (1 - theta_) * state.v);
-    observer.arc(arc(constants, anchor, state.phase_turns, free.length,
-                     cubic(free.length, {state.x - anchor, state.v}, {x - anchor, free.v}),
-                     cubic(free.length, {state.v, (free.v - state.v) / free.length},
-                           {free.v, (free.v - state.v) / free.length})),
-                 this->time(state, origin), free.length);
+    stage.show(arc(constants, anchor, state.phase_turns, free.length,
+                   cubic(free.length, {state.x - anchor, state.v}, {x - anchor, free.v}),
+                   cubic(free.length, {state.v, (free.v - state.v) / free.length},
+                         {free.v, (free.v - state.v) / free.length})),
+               free.length);
     state.x = x, state.v = free.v;
   }
 
-  template <class Observer>
-  void rest(motion::State<double>& state, const motion::Stop<double>& stop, double turns, std::int64_t origin,
-            Observer& observer) {
+  template <class Stage>
+  void rest(Stage& stage, const motion::Stop<double>& stop, double turns) {
+    motion::State<double>& state = stage.state;
     state.x = stop.position, slid_ = 0.0;
-    this->show_rest(state, stop.side, turns - state.phase_turns, true, origin, observer);
+    stage.show_rest(stop.side, turns - state.phase_turns, true);
   }
 
   /// Moves with the velocity before the impulse until it acts, and with the one after it from there.
-  template <class Observer>
-  void collide(motion::State<double>& state, const motion::Stop<double>& stop, const Free& free, std::int64_t origin,
-               Observer& observer) {
+  template <class Stage>
+  void collide(Stage& stage, const motion::Stop<double>& stop, const Free& free) {
+    motion::State<double>& state = stage.state;
     const double before = stop.into(state.v) > 0 ? state.v : free.v;  // leaving too slowly: pushed back by the force
     const double pressed = stop.into(force(this->constants(), stop.position, 0.0, free.sine)),
                  rebound = -stop.into(stop.law.after(before));
     const double after = 2 * rebound > pressed * free.length && stop.into(state.v) > 0 ? stop.law.after(before) : 0;
     constexpr double least = 1e-6;  // of a step: the impact must not coincide with its beginning
     const double until = std::max(1 - theta_, least) * free.length;
-    drift(state, until, origin, observer);
+    drift(stage, until);
     state.v = slid_ = after + 0.0;  // no negative zero
-    this->show_impact(state, stop, before, origin, observer);
+    stage.show_impact(stop, before);
     if (after == 0) {
       state.x = stop.position;
-      this->show_rest(state, stop.side, (free.length - until) / this->period(), true, origin, observer);
+      stage.show_rest(stop.side, (free.length - until) / this->period(), true);
     } else {
-      drift(state, free.length - until, origin, observer);
+      drift(stage, free.length - until);
     }
   }
 
   /// Moves on with the present velocity.
-  template <class Observer>
-  void drift(motion::State<double>& state, double length, std::int64_t origin, Observer& observer) const {
+  template <class Stage>
+  void drift(Stage& stage, double length) const {
+    motion::State<double>& state = stage.state;
     const double x = state.x + length * state.v;
-    observer.arc(arc(slipping(state.v, state.v), 0.0, state.phase_turns, length,
-                     cubic(length, {state.x, state.v}, {x, state.v}), cubic(length, {state.v, 0.0}, {state.v, 0.0})),
-                 this->time(state, origin), length);
+    stage.show(arc(slipping(state.v, state.v), 0.0, state.phase_turns, length,
+                   cubic(length, {state.x, state.v}, {x, state.v}), cubic(length, {state.v, 0.0}, {state.v, 0.0})),
+               length);
     state.x = x, state.phase_turns += length / this->period();
   }
 

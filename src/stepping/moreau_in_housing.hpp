@@ -32,11 +32,12 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
   /// and events with their times since the section `origin`.
   template <class Observer>
   [[nodiscard]] Outcome advance(motion::State<double>& state, double end, std::int64_t origin, Observer& observer) {
+    Stage<Moreau, Observer> stage(*this, state, end, origin, observer);
     this->sine_ = this->phase(state).sine;
-    if (!bounce_off(state, origin, observer)) return Outcome::event_budget;
+    if (!bounce_off(stage)) return Outcome::event_budget;
     while (end - state.phase_turns > 2 * epsilon<double>()) {
       this->report(state);
-      if (!step(state, this->next_turns(state.phase_turns, end), origin, observer)) return Outcome::event_budget;
+      if (!step(stage, this->next_turns(state.phase_turns, end))) return Outcome::event_budget;
     }
     state.phase_turns = end;
     return this->outcome_of(state);
@@ -44,7 +45,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
 
  private:
   using StepEnd = typename Base::StepEnd;
-  using typename Base::Kind;
+  using Kind = motion::Event::Kind;
 
   /// A loose mass: z = origin + offset, and z'.
   struct Loose {
@@ -58,12 +59,13 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
 
   /// Takes the impact of a loose mass that is on a wall and moves into it, as only a start can, before any time passes;
   /// false if it is one too many.
-  template <class Observer>
-  [[nodiscard]] bool bounce_off(motion::State<double>& state, std::int64_t origin, Observer& observer) {
+  template <class Stage>
+  [[nodiscard]] bool bounce_off(Stage& stage) {
+    motion::State<double>& state = stage.state;
     const motion::LooseState<double> loose = state.loose;
     if (loose.wall == Side::none || loose.place != 0 || !(sign_of(loose.wall) * loose.speed > 0)) return true;
     const double v_after = walls_.rule.main_after(state.v, loose.speed);
-    return strike(state, loose.wall, loose.speed, walls_.rule.law.after(loose.speed), v_after, origin, observer);
+    return strike(stage, loose.wall, loose.speed, walls_.rule.law.after(loose.speed), v_after);
   }
 
   /// The wall that the loose mass is beyond in the middle of a step, at its present z'.
@@ -73,8 +75,9 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
   }
 
   /// A step to the phase `turns`; false if it takes one impact too many.
-  template <class Observer>
-  [[nodiscard]] bool step(motion::State<double>& state, double turns, std::int64_t origin, Observer& observer) {
+  template <class Stage>
+  [[nodiscard]] bool step(Stage& stage, double turns) {
+    motion::State<double>& state = stage.state;
     const StepEnd free = this->step_end(this->constants(), state, turns);
     const Loose loose = loose_of(state);
     const double v_free = free.momentum / free.mass,
@@ -84,28 +87,28 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
     bool affordable = true;
     if (side == Side::none || !(sign * w_free > sign * walls_.rule.law.after(loose.w))) {
       state.loose.pressed = false;
-      fly(state, loose, free.length, v_free, w_free, origin, observer);
+      fly(stage, loose, free.length, v_free, w_free);
     } else if (state.loose.pressed || loose.w == 0) {
-      if (!state.loose.pressed) press(state, side, origin, observer);
-      carry(state, turns, origin, observer);
+      if (!state.loose.pressed) press(stage, side);
+      carry(stage, turns);
     } else {
-      affordable = collide(state, loose, side, free, w_free, turns, origin, observer);
+      affordable = collide(stage, loose, side, free, w_free, turns);
     }
     state.phase_turns = turns, this->sine_ = free.sine;
     return affordable;
   }
 
   /// Both masses without an impact to the end of a step.
-  template <class Observer>
-  void fly(motion::State<double>& state, const Loose& loose, double length, double v_end, double w_end,
-           std::int64_t origin, Observer& observer) const {
+  template <class Stage>
+  void fly(Stage& stage, const Loose& loose, double length, double v_end, double w_end) const {
+    motion::State<double>& state = stage.state;
     const double way = this->way(length, state.v, v_end), offset = loose.offset + this->way(length, loose.w, w_end);
     const auto main = this->arc(this->constants(), state.x, state.phase_turns, length,
                                 cubic(length, {0.0, state.v}, {way, v_end}), this->ramp(length, state.v, v_end));
     const motion::PolynomialInHousing in_housing(main, loose.origin, walls_.load,
                                                  cubic(length, {loose.offset, loose.w}, {offset, w_end}),
                                                  this->ramp(length, loose.w, w_end));
-    observer.arc(motion::HousedArc{main, in_housing}, this->time(state, origin), length);
+    stage.show(motion::HousedArc{main, in_housing}, length);
     state.x += way, state.v = v_end;
     move_loose(state, offset, w_end);
   }
@@ -119,29 +122,31 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
   }
 
   /// Both as one while a wall presses, to the phase `turns`, at the end of which the velocity is that of the step.
-  template <class Observer>
-  void carry(motion::State<double>& state, double turns, std::int64_t origin, Observer& observer) {
+  template <class Stage>
+  void carry(Stage& stage, double turns) {
+    motion::State<double>& state = stage.state;
     walls_.carrying.with_constants([&](const auto& constants) {
       const StepEnd both = this->step_end(constants, state, turns);
-      hold(constants, state, both.length, both.momentum / both.mass, origin, observer);
+      hold(constants, stage, both.length, both.momentum / both.mass);
     });
   }
-  template <class Constants, class Observer>
-  void hold(const Constants& constants, motion::State<double>& state, double length, double v_end, std::int64_t origin,
-            Observer& observer) const {
-    const double way = this->way(length, state.v, v_end), begin = this->time(state, origin);
+  template <class Constants, class Stage>
+  void hold(const Constants& constants, Stage& stage, double length, double v_end) const {
+    motion::State<double>& state = stage.state;
+    const double way = this->way(length, state.v, v_end), begin = stage.time();
     const Side side = state.loose.wall;
     const auto arc = this->arc(constants, state.x, state.phase_turns, length,
                                cubic(length, {0.0, state.v}, {way, v_end}), this->ramp(length, state.v, v_end));
-    observer.arc(motion::HousedArc{arc, motion::Pressed{side, walls_.place(side)}}, begin, length);
-    observer.event({Kind::hold, side, begin, 0.0, length, 0.0, walls_.place(side)});
+    stage.show(motion::HousedArc{arc, motion::Pressed{side, walls_.place(side)}}, length);
+    stage.show({Kind::hold, side, begin, 0.0, length, 0.0, walls_.place(side)});
     state.x += way, state.v = v_end;
   }
 
   /// Moves with the velocities before the impulse until it acts, and with those after it from there.
-  template <class Observer>
-  [[nodiscard]] bool collide(motion::State<double>& state, const Loose& loose, Side side, const StepEnd& free,
-                             double w_free, double turns, std::int64_t origin, Observer& observer) {
+  template <class Stage>
+  [[nodiscard]] bool collide(Stage& stage, const Loose& loose, Side side, const StepEnd& free, double w_free,
+                             double turns) {
+    motion::State<double>& state = stage.state;
     const int sign = sign_of(side);
     const double before = sign * loose.w > 0 ? loose.w : w_free;  // leaving too slowly: pushed back by the forces
     const double rebound = walls_.rule.law.after(before);
@@ -151,46 +156,47 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
     const double v_after = free.momentum / free.mass - share * (after - w_free);
     constexpr double least = 1e-6;  // of a step: the impact must not coincide with its beginning
     const double until = std::max(1 - this->theta_, least) * free.length;
-    fly(state, loose, until, state.v, loose.w, origin, observer);
+    fly(stage, loose, until, state.v, loose.w);
     state.phase_turns += until / this->period();
     const double offset = loose.origin + (loose.offset + until * loose.w) - walls_.place(side);
-    const bool affordable = strike(state, side, before, after, v_after, origin, observer);
+    const bool affordable = strike(stage, side, before, after, v_after);
     if (flies) {
       state.loose.place = offset;
-      fly(state, loose_of(state), free.length - until, state.v, after, origin, observer);
+      fly(stage, loose_of(state), free.length - until, state.v, after);
     } else {
-      press(state, side, origin, observer);
+      press(stage, side);
       walls_.carrying.with_constants(
-          [&](const auto& constants) { hold(constants, state, free.length - until, state.v, origin, observer); });
+          [&](const auto& constants) { hold(constants, stage, free.length - until, state.v); });
     }
     state.phase_turns = turns;
     return affordable;
   }
 
   /// Changes the velocities by an impact, and reports it; false if it is one too many.
-  template <class Observer>
-  [[nodiscard]] bool strike(motion::State<double>& state, Side side, double before, double after, double v_after,
-                            std::int64_t origin, Observer& observer) {
+  template <class Stage>
+  [[nodiscard]] bool strike(Stage& stage, Side side, double before, double after, double v_after) {
+    motion::State<double>& state = stage.state;
     const double v_before = state.v;
     state.v = v_after, state.loose = {side, 0.0, after + 0.0};  // no negative zero
-    observer.event({.kind = Kind::strike,
-                    .side = side,
-                    .time = this->time(state, origin),
-                    .before = before,
-                    .after = state.loose.speed,
-                    .place = walls_.place(side),
-                    .turns = state.phase_turns,
-                    .main = {state.x, v_before, v_after}});
+    stage.show({.kind = Kind::strike,
+                .side = side,
+                .time = stage.time(),
+                .before = before,
+                .after = state.loose.speed,
+                .place = walls_.place(side),
+                .turns = state.phase_turns,
+                .main = {state.x, v_before, v_after}});
     return this->count_impact();
   }
-  template <class Observer>
-  void press(motion::State<double>& state, Side side, std::int64_t origin, Observer& observer) const {
+  template <class Stage>
+  void press(Stage& stage, Side side) const {
+    motion::State<double>& state = stage.state;
     state.loose = {side, 0.0, 0.0, true};
-    observer.event({.kind = Kind::press,
-                    .side = side,
-                    .time = this->time(state, origin),
-                    .place = walls_.place(side),
-                    .main = {state.x, state.v, state.v}});
+    stage.show({.kind = Kind::press,
+                .side = side,
+                .time = stage.time(),
+                .place = walls_.place(side),
+                .main = {state.x, state.v, state.v}});
   }
 
   motion::Walls<double> walls_;

@@ -5,6 +5,7 @@
 #include "motion/polynomial_arc.hpp"
 #include "stepping/integration.hpp"
 #include "stepping/integrator.hpp"
+#include "stepping/stage.hpp"
 
 namespace clatter::stepping {
 

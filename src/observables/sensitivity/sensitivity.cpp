@@ -170,8 +170,7 @@ class Walk {
     }
     if (ends_slip(event)) state_.v = Along(0);
     if (event.kind != Event::Kind::impact) return;
-    const Along R = event.side == Side::upper ? scene_.stops.restitution_upper : scene_.stops.restitution_lower;
-    const Along after = Restitution<Along>{R}.after(state_.v);
+    const Along after = restitution_at<Along>(scene_.stops, event.side).after(state_.v);
     lost_ += (state_.v * state_.v - after * after) / 2;
     state_.v = after;
   }

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "motion/dry_friction.hpp"
+
+/// When a mass is let go that something holds.
+namespace clatter::stepping::modes {
+
+/// A phase of the force, counted from the section: in turns, 0 ... 1.
+template <class Loop, class Number>
+[[nodiscard]] std::optional<Number> in_section(const Loop& loop, const std::optional<Number>& phase) {
+  if (!phase) return std::nullopt;
+  return part_of_turn(Number(*phase - loop.start_turns()));
+}
+/// The phase at which a stop releases a mass, in turns since the section, 0 ... 1: the same number after every rest.
+template <class Loop, class Number>
+[[nodiscard]] std::optional<Number> release_turns(const Loop& loop, const motion::Stop<Number>& stop) {
+  if constexpr (Loop::effects.friction)
+    if (loop.is_rough()) {
+      motion::State<Number> state;
+      state.x = stop.position;
+      return in_section(loop, loop.holding_at(state).release_phase(loop.constants(), opposite(stop.side)));
+    }
+  return in_section(loop, release_phase(loop.constants(), stop));
+}
+/// A release at a phase if it is ahead and not beyond `end`. Just behind it is now, to rounding.
+template <class Number>
+[[nodiscard]] std::optional<Number> upcoming(const std::optional<Number>& release, const Number& now,
+                                             const Number& end) {
+  if (!release) return std::nullopt;
+  const Number ahead = *release - now + (*release < now ? 1 : 0);
+  const Number at = ahead > 1 - 16 * epsilon<Number>() ? now : *release;
+  return at >= now && at <= end ? std::optional(at) : std::nullopt;
+}
+
+}  // namespace clatter::stepping::modes

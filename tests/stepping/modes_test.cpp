@@ -1,0 +1,68 @@
+#include <array>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "stepping/exact.hpp"
+
+namespace clatter::stepping {
+namespace {
+
+constexpr std::array<const char*, 4> searched_as{"gaps", "margins", "pull", "closed form"};
+
+/// The rows of some modes, as lines of the guide's table.
+template <class... Modes>
+struct Lines {
+  [[nodiscard]] static std::vector<std::string> all() { return {line(Modes::row)...}; }
+
+  [[nodiscard]] static std::string line(const Row& row) {
+    std::ostringstream text;
+    text << "| " << row.mode << " | " << row.oscillator << " | " << row.guards << " | "
+         << searched_as[static_cast<std::size_t>(row.search)] << " | " << row.laws << " |";
+    return text.str();
+  }
+};
+
+/// The names of the modes that a set of effects calls for.
+template <class... Modes>
+std::vector<std::string> names(std::tuple<std::type_identity<Modes>...>) {
+  return {std::string(Modes::row.mode)...};
+}
+template <Effects E>
+std::vector<std::string> called_for() {
+  return names(Modes<Exact<double, E>>());
+}
+
+TEST(Modes, ReadAsTheTableOfTheGuide) {
+  std::ifstream guide(std::string(CLATTER_SOURCE) + "/src/stepping/README.md");
+  std::vector<std::string> lines;
+  bool in_table = false;
+  for (std::string line; std::getline(guide, line);) {
+    if (line == "|---|---|---|---|---|")
+      in_table = true;
+    else if (in_table && !line.starts_with('|'))
+      break;
+    else if (in_table)
+      lines.push_back(line);
+  }
+  EXPECT_EQ(lines, (Table<Lines, Exact<double, Effects{}>>::all()));
+}
+
+TEST(Modes, AreThoseThatTheEffectsCallFor) {
+  constexpr Effects rigid{.lower = true, .upper = true, .rest = true};
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(called_for<rigid>(), (Names{"in chatter", "at rest", "between stops"}));
+  constexpr Effects elastic{.lower = true, .upper = true};
+  EXPECT_EQ(called_for<elastic>(), (Names{"between stops"}));
+  constexpr Effects loose{.loose = true};
+  EXPECT_EQ(called_for<loose>(), (Names{"pressed", "in a housing"}));
+  constexpr Effects soft{.lower = true, .upper = true, .soft = true};
+  EXPECT_EQ(called_for<soft>(), (Names{"beyond a stop", "in contact", "between stops"}));
+}
+
+}  // namespace
+}  // namespace clatter::stepping
