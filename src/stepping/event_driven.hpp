@@ -110,12 +110,13 @@ class EventDriven : public IntegratorBase<N, E> {
   /// Runs the first of some modes that has the state, up to its event or to the end of the stage.
   template <class Stage, class Mode, class... Others>
   [[nodiscard]] Outcome run_mode(Stage& stage, std::tuple<std::type_identity<Mode>, Others...>) {
-    const auto has = Mode::has(*this, stage.state);
-    if (has) {
-      if constexpr (std::is_same_v<decltype(has), const bool>)
+    if (const auto has = Mode::has(*this, stage.state)) {
+      if constexpr (requires { Mode::run(*this, stage); })
         return Mode::run(*this, stage);
-      else
+      else if constexpr (requires { Mode::run(*this, stage, *has); })
         return Mode::run(*this, stage, *has);
+      else
+        return run(Mode{*this, stage.state}, *this, stage);
     }
     if constexpr (sizeof...(Others) > 0) return run_mode(stage, std::tuple<Others...>());
     return Outcome::completed;  // the last has any state

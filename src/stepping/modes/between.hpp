@@ -23,10 +23,6 @@ struct Between {
 
   [[nodiscard]] static bool has(const Loop&, const State&) { return true; }
 
-  template <class Stage>
-  [[nodiscard]] static Outcome run(Loop& loop, Stage& stage) {
-    return move(Between{loop, stage.state}, loop, stage);
-  }
   template <class Function>
   decltype(auto) with_oscillator(Function&& function) const {
     return function(loop.constants());

@@ -65,37 +65,6 @@ template <class Number>
 [[nodiscard]] motion::Margin<Number> speed_towards(Side side) {
   return {Number(0), Number(0), Number(sign_of(side))};
 }
-/// Whether the velocity of a slip, its second margin, falls to 0, perhaps with the horizon.
-template <class Number>
-[[nodiscard]] bool is_still(const motion::Crossing<Number>& crossing) {
-  return crossing.margin == 1 || (crossing.margin > 1 && crossing.motion.v == 0);
-}
-template <class Number>
-[[nodiscard]] bool ends_at_once(const motion::Crossing<Number>& crossing) {
-  return crossing.margin < 2 && crossing.elapsed == 0;
-}
-/// Ends a slip towards a side: the mass sticks, as the next mode finds, or moves back at once.
-template <class Loop, class Stage>
-void turn(const Loop& loop, Stage& stage, Side ahead) {
-  using Number = typename Loop::Number;
-  auto& state = stage.state;
-  state.v = 0;
-  if (loop.held(state) || heading(loop, state) == ahead) return;
-  const Number pushed = push(loop, state), rubs = sign_of(ahead) * loop.slips().kinetic;
-  stage.show_reversal(Number(pushed - rubs), Number(pushed + rubs));
-}
-/// A mass without speed that would meet at once what is ahead: it enters the soft stop that it is on, else the force
-/// is within rounding of the level of friction, and it waits.
-template <class Loop, class Stage>
-[[nodiscard]] Outcome begin_slip_anew(const Loop& loop, Stage& stage, Side ahead) {
-  auto& state = stage.state;
-  const auto position = motion::stop_at<typename Loop::Number>(loop.stops(), ahead).position;
-  if (state.within == Side::none && is_soft(loop.stops(), ahead) && state.x == position) {
-    laws::enter(state, ahead);
-    return Outcome::completed;
-  }
-  return laws::wait(stage, loop.holding_at(state).stop);
-}
 
 }  // namespace modes
 
@@ -124,55 +93,79 @@ struct Stuck {
   }
 };
 
-/// Slips towards a side until it meets the stop ahead, or its velocity falls to 0.
+/// A slip of a mass to one side.
 template <class Loop>
-class Slip {
- public:
+struct AnySlip {
+  using Number = typename Loop::Number;
+  using Crossing = motion::Crossing<Number>;
+
+  Loop& loop;
+  motion::State<Number>& state;
+  Side ahead = modes::heading(loop, state);
+  bool begins = state.v == 0;
+
+  [[nodiscard]] Number release_acceleration() const { return loop.slips().release_acceleration(ahead); }
+  [[nodiscard]] bool is_none(const Crossing& crossing) const {
+    return begins && crossing.margin < 2 && crossing.elapsed == 0;
+  }
+  /// The mass would meet at once what is ahead: it enters the soft stop that it is on, else the force is within
+  /// rounding of the level of friction, and it waits.
+  template <class Stage>
+  [[nodiscard]] Outcome wait(Stage& stage, const Crossing&) const {
+    const auto position = motion::stop_at<Number>(loop.stops(), ahead).position;
+    if (state.within == Side::none && is_soft(loop.stops(), ahead) && state.x == position) {
+      laws::enter(state, ahead);
+      return Outcome::completed;
+    }
+    return laws::wait(stage, loop.holding_at(state).stop);
+  }
+  /// Whether the velocity, the second margin, has fallen to 0, perhaps with the horizon.
+  [[nodiscard]] static bool is_still(const Crossing& crossing) {
+    return crossing.margin == 1 || (crossing.margin > 1 && crossing.motion.v == 0);
+  }
+  /// The mass sticks, as the next mode finds, or moves back at once.
+  template <class Stage>
+  void turn(Stage& stage) const {
+    state.v = 0;
+    if (loop.held(state) || modes::heading(loop, state) == ahead) return;
+    const Number push = modes::push(loop, state), rubs = sign_of(ahead) * loop.slips().kinetic;
+    stage.show_reversal(Number(push - rubs), Number(push + rubs));
+  }
+};
+
+/// Slips until it meets the stop ahead, or its velocity falls to 0.
+template <class Loop>
+struct Slip : AnySlip<Loop> {
   static constexpr Row row{"slip", "free, its load moved against the velocity", "gap to the stop ahead; velocity",
                            Search::margins, "impact or touch; stick or reversal"};
   static constexpr bool called_for = Stuck<Loop>::called_for;
-  using Number = typename Loop::Number;
-  using State = motion::State<Number>;
-  using Crossing = motion::Crossing<Number>;
+  using typename AnySlip<Loop>::Number;
+  using AnySlip<Loop>::loop, AnySlip<Loop>::state, AnySlip<Loop>::ahead;
 
-  [[nodiscard]] static bool has(const Loop& loop, const State&) { return loop.is_rough(); }
+  motion::Stop<Number> stop = motion::stop_at<Number>(loop.stops(), ahead);
+  Number rounding = rounding_of_gap();
+  std::array<motion::Margin<Number>, 2> guards{modes::gap_ahead(loop, state, ahead),
+                                               modes::speed_towards<Number>(ahead)};
 
-  Slip(Loop& loop, State& state)
-      : loop_(loop),
-        state_(state),
-        ahead_(modes::heading(loop, state)),
-        stop_(motion::stop_at<Number>(loop.stops(), ahead_)),
-        begins_(state.v == 0),
-        rounding_(rounding_of_gap()),
-        margins_{modes::gap_ahead(loop, state, ahead_), modes::speed_towards<Number>(ahead_)} {}
+  [[nodiscard]] static bool has(const Loop& loop, const motion::State<Number>&) { return loop.is_rough(); }
 
-  template <class Stage>
-  [[nodiscard]] static Outcome run(Loop& loop, Stage& stage) {
-    return move(Slip(loop, stage.state), loop, stage);
-  }
   template <class Function>
   decltype(auto) with_oscillator(Function&& function) const {
-    return function(loop_.slips().towards(ahead_));
+    return function(loop.slips().towards(ahead));
   }
-  [[nodiscard]] Number release_acceleration() const { return loop_.slips().release_acceleration(ahead_); }
-  [[nodiscard]] const auto& margins() const { return margins_; }
+  [[nodiscard]] const auto& margins() const { return guards; }
 
-  [[nodiscard]] bool is_none(const Crossing& crossing) const { return begins_ && modes::ends_at_once(crossing); }
-  template <class Stage>
-  [[nodiscard]] Outcome wait(Stage& stage, const Crossing&) const {
-    return modes::begin_slip_anew(loop_, stage, ahead_);
-  }
   template <class Stage, class Flown>
   [[nodiscard]] Outcome end(Stage& stage, const Flown& flown) const {
-    const Crossing& crossing = flown.crossing;
-    state_.released = false;
-    const bool still = modes::is_still(crossing), touches = still && margins_[0].of(crossing.motion) <= rounding_;
-    if (still && !touches) modes::turn(loop_, stage, ahead_);
+    const auto& crossing = flown.crossing;
+    state.released = false;
+    const bool still = this->is_still(crossing), touches = still && guards[0].of(crossing.motion) <= rounding;
+    if (still && !touches) this->turn(stage);
     if (crossing.margin != 0 && !touches) return Outcome::completed;
-    state_.x = stop_.position;
-    const Number brakes = -stop_.into(crossing.motion.a), speed = stop_.into(state_.v);
-    if (touches || speed < 0 || speed * speed <= 2 * brakes * rounding_) state_.v = 0;
-    return laws::meet(loop_, stage, stop_);
+    state.x = stop.position;
+    const Number brakes = -stop.into(crossing.motion.a), speed = stop.into(state.v);
+    if (touches || speed < 0 || speed * speed <= 2 * brakes * rounding) state.v = 0;
+    return laws::meet(loop, stage, stop);
   }
 
  private:
@@ -181,75 +174,45 @@ class Slip {
   /// flight that a section cuts has its rounding from the beginning.
   [[nodiscard]] Number rounding_of_gap() const {
     using std::abs, std::max;
-    const bool begins = begins_ || (state_.from_stop != Side::none && state_.offset == 0);
-    const bool may_touch = !is_soft(loop_.stops(), stop_.side) && loop_.finite(stop_.position);
-    if (begins || !may_touch) state_.reach = Number(0);
+    const bool is_first = this->begins || (state.from_stop != Side::none && state.offset == 0);
+    const bool may_touch = !is_soft(loop.stops(), stop.side) && loop.finite(stop.position);
+    if (is_first || !may_touch) state.reach = Number(0);
     if (!may_touch) return Number(0);
-    const Number way = state_.from_stop == stop_.side ? Number(abs(state_.offset))
-                                                      : Number(abs(stop_.position - state_.x) + abs(stop_.position));
-    state_.reach = max(state_.reach, way);
-    return 64 * epsilon<Number>() * state_.reach;
+    const Number way = state.from_stop == stop.side ? Number(abs(state.offset))
+                                                    : Number(abs(stop.position - state.x) + abs(stop.position));
+    state.reach = max(state.reach, way);
+    return 64 * epsilon<Number>() * state.reach;
   }
-
-  Loop& loop_;
-  State& state_;
-  Side ahead_;
-  motion::Stop<Number> stop_;  ///< ahead
-  bool begins_;                ///< without speed
-  Number rounding_;            ///< of the gap
-  std::array<motion::Margin<Number>, 2> margins_;
 };
 
 /// Slips in contact with a soft stop until the force of that, or the velocity, falls to 0.
 template <class Loop>
-class SlipInContact {
- public:
+struct SlipInContact : AnySlip<Loop> {
   static constexpr Row row{"slip in contact", "the same, with the soft stop", "force of the stop; velocity",
                            Search::margins, "separation; stick or reversal"};
-  static constexpr bool called_for = Slip<Loop>::called_for && Loop::effects.soft;
-  using Number = typename Loop::Number;
-  using State = motion::State<Number>;
-  using Crossing = motion::Crossing<Number>;
+  static constexpr bool called_for = Stuck<Loop>::called_for && Loop::effects.soft;
+  using typename AnySlip<Loop>::Number;
+  using AnySlip<Loop>::loop, AnySlip<Loop>::state, AnySlip<Loop>::ahead;
 
-  [[nodiscard]] static bool has(const Loop& loop, const State& state) { return loop.is_rough() && state.pressed; }
+  motion::SoftStop<Number> stop = motion::soft_stop_at<Number>(loop.stops(), state.within);
 
-  SlipInContact(Loop& loop, const State& state)
-      : loop_(loop),
-        ahead_(modes::heading(loop, state)),
-        stop_(motion::soft_stop_at<Number>(loop.stops(), state.within)),
-        begins_(state.v == 0) {}
-
-  template <class Stage>
-  [[nodiscard]] static Outcome run(Loop& loop, Stage& stage) {
-    return move(SlipInContact(loop, stage.state), loop, stage);
+  [[nodiscard]] static bool has(const Loop& loop, const motion::State<Number>& state) {
+    return loop.is_rough() && state.pressed;
   }
+
   template <class Function>
   decltype(auto) with_oscillator(Function&& function) const {
-    return loop_.slips().in_contact(stop_.side, ahead_, function);
+    return loop.slips().in_contact(stop.side, ahead, function);
   }
-  [[nodiscard]] Number release_acceleration() const { return loop_.slips().release_acceleration(ahead_); }
-  [[nodiscard]] auto margins() const {
-    return std::array{modes::force_of(stop_), modes::speed_towards<Number>(ahead_)};
-  }
+  [[nodiscard]] auto margins() const { return std::array{modes::force_of(stop), modes::speed_towards<Number>(ahead)}; }
 
-  [[nodiscard]] bool is_none(const Crossing& crossing) const { return begins_ && modes::ends_at_once(crossing); }
-  template <class Stage>
-  [[nodiscard]] Outcome wait(Stage& stage, const Crossing&) const {
-    return modes::begin_slip_anew(loop_, stage, ahead_);
-  }
   template <class Stage, class Flown>
   [[nodiscard]] Outcome end(Stage& stage, const Flown& flown) const {
-    stage.state.released = false;
-    if (flown.crossing.margin == 0) laws::separate(stage, stop_);
-    if (modes::is_still(flown.crossing)) modes::turn(loop_, stage, ahead_);
+    state.released = false;
+    if (flown.crossing.margin == 0) laws::separate(stage, stop);
+    if (this->is_still(flown.crossing)) this->turn(stage);
     return Outcome::completed;
   }
-
- private:
-  Loop& loop_;
-  Side ahead_;
-  motion::SoftStop<Number> stop_;
-  bool begins_;  ///< without speed
 };
 
 }  // namespace clatter::stepping

@@ -51,7 +51,7 @@ struct Flown {
 /// Runs a mode in which the mass moves: on one arc of the mode's oscillator, up to the first of its guards or to the
 /// end of the stage. A flight that ends where it begins, or that rounding alone tells from none, is none.
 template <class Mode, class Loop, class Stage>
-[[nodiscard]] Outcome move(const Mode& mode, Loop& loop, Stage& stage) {
+[[nodiscard]] Outcome run(const Mode& mode, Loop& loop, Stage& stage) {
   using Number = typename Loop::Number;
   motion::State<Number>& state = stage.state;
   return mode.with_oscillator([&](const auto& constants) {

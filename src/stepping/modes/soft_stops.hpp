@@ -17,14 +17,11 @@ struct InContact {
   using State = motion::State<Number>;
 
   const Loop& loop;
-  motion::SoftStop<Number> stop;
+  State& state;
+  motion::SoftStop<Number> stop = motion::soft_stop_at<Number>(loop.stops(), state.within);
 
   [[nodiscard]] static bool has(const Loop&, const State& state) { return state.within != Side::none; }
 
-  template <class Stage>
-  [[nodiscard]] static Outcome run(Loop& loop, Stage& stage) {
-    return move(InContact{loop, motion::soft_stop_at<Number>(loop.stops(), stage.state.within)}, loop, stage);
-  }
   template <class Function>
   decltype(auto) with_oscillator(Function&& function) const {
     return loop.in_contact(stop.side, function);
@@ -35,7 +32,7 @@ struct InContact {
   [[nodiscard]] Outcome end(Stage& stage, const Flown& flown) const {
     if (flown.crossing.margin != 0) return Outcome::completed;
     if (flown.constants.h == 0 && flown.constants.f == 0)  // by its energy
-      stage.state.v = stop.into(-flown.constants.speed_at_stop(flown.start.offset, flown.start.v));
+      state.v = stop.into(-flown.constants.speed_at_stop(flown.start.offset, flown.start.v));
     laws::separate(stage, stop);
     return Outcome::completed;
   }
@@ -52,18 +49,13 @@ struct Beyond {
   using State = motion::State<Number>;
 
   Loop& loop;
-  const State& state;
-  motion::SoftStop<Number> stop;
+  State& state;
+  motion::SoftStop<Number> stop = motion::soft_stop_at<Number>(loop.stops(), state.within);
 
   [[nodiscard]] static bool has(const Loop&, const State& state) {
     return state.within != Side::none && !state.pressed;
   }
 
-  template <class Stage>
-  [[nodiscard]] static Outcome run(Loop& loop, Stage& stage) {
-    const auto stop = motion::soft_stop_at<Number>(loop.stops(), stage.state.within);
-    return move(Beyond{loop, stage.state, stop}, loop, stage);
-  }
   /// With friction that of the slip.
   template <class Function>
   decltype(auto) with_oscillator(Function&& function) const {
@@ -80,7 +72,7 @@ struct Beyond {
   template <class Stage, class Flown>
   [[nodiscard]] Outcome end(Stage& stage, const Flown& flown) const {
     if (flown.crossing.margin == 1) return laws::renew(loop, stage, stop.side);
-    if (flown.crossing.margin == 0) laws::leave(stage.state, stop);
+    if (flown.crossing.margin == 0) laws::leave(state, stop);
     return Outcome::completed;
   }
 };
