@@ -6,10 +6,11 @@
 #include <functional>
 
 #include "branches/halt_end.hpp"
-#include "branches/resting/resting_branch.hpp"
-#include "branches/start.hpp"
+#include "branches/resting_branch.hpp"
+#include "branches/start/start.hpp"
 #include "branches/walk/halves.hpp"
 #include "branches/walk/special_points.hpp"
+#include "branches/walk/violation.hpp"
 
 namespace clatter::branches {
 namespace {

@@ -11,33 +11,13 @@
 
 #include "branches/equations/equations.hpp"
 #include "branches/settings.hpp"
-#include "branches/start.hpp"
-#include "branches/walk/violation.hpp"
+#include "branches/start/start.hpp"
+#include "branches/walk/special_kind.hpp"
 #include "point/problem.hpp"
 
 namespace clatter::branches {
 
-/// Special points of branches and of curves in two parameters.
-enum class SpecialKind : std::uint8_t {
-  fold,
-  flip,
-  symmetry_breaking,
-  graze,
-  chatter_limit,      ///< a chatter ends in rest just at the release: beyond it the mass doesn't rest
-  release_tangency,   ///< beyond it the mass is never released, or earlier
-  impact_speed,       ///< largest along the branch
-  impact_power,       ///< likewise
-  harmonic,           ///< likewise
-  resonant_graze,     ///< of a curve: an impact that vanishes on curves of multipliers +1 and -1
-  cusp,               ///< of a curve: two special points meet and vanish
-  crossing_sliding,   ///< under dry friction: a reversal of a slip becomes a stick, or the other way round
-  grazing_sliding,    ///< likewise: a slip whose velocity just comes to 0 gains a stick, or the other way round
-  switching_sliding,  ///< likewise: a reversal and the slip to a stick vanish, or appear before it
-  neimark_sacker,     ///< of a loose mass: a pair of multipliers leaves the unit circle
-  motion_ceases       ///< under dry friction: it comes up to the force, and beyond holds the mass for good
-};
-[[nodiscard]] std::string_view name_of(SpecialKind kind);
-/// What may be born there, if anything.
+/// What may be born at a special point, if anything.
 [[nodiscard]] std::optional<Birth> birth_at(SpecialKind kind);
 
 /// A periodic motion on a branch, with its multipliers.

@@ -9,23 +9,6 @@
 namespace clatter::branches {
 namespace {
 
-constexpr std::array<std::string_view, 16> special_names{"fold",
-                                                         "flip",
-                                                         "symmetry breaking",
-                                                         "graze",
-                                                         "chatter limit",
-                                                         "release tangency",
-                                                         "maximum impact_speed",
-                                                         "maximum impact_power",
-                                                         "maximum harmonic",
-                                                         "resonant graze",
-                                                         "cusp",
-                                                         "crossing-sliding",
-                                                         "grazing-sliding",
-                                                         "switching-sliding",
-                                                         "Neimark-Sacker",
-                                                         "motion ceases"};
-
 bool meet(const std::vector<attractors::SectionState>& one, const std::vector<attractors::SectionState>& other,
           double within) {
   return std::ranges::any_of(one, [&](const attractors::SectionState& a) {
@@ -49,8 +32,6 @@ bool is_same_motion(const BranchPoint& one, const BranchPoint& other, double wit
 }
 
 }  // namespace
-
-std::string_view name_of(SpecialKind kind) { return special_names[static_cast<std::size_t>(kind)]; }
 
 std::optional<Birth> birth_at(SpecialKind kind) {
   switch (kind) {

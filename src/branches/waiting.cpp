@@ -5,9 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "branches/start.hpp"
+#include "branches/start/start.hpp"
 #include "branches/walk/graze.hpp"
 #include "branches/walk/halves.hpp"
+#include "branches/walk/violation.hpp"
 
 namespace clatter::branches {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "branches/branch.hpp"
-#include "branches/followed_scene.hpp"
+#include "branches/equations/followed_scene.hpp"
 #include "certificates/certified_point.hpp"
 
 namespace clatter::certificates {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "branches/followed_scene.hpp"
+#include "branches/equations/followed_scene.hpp"
 #include "branches/symmetric_motion.hpp"
 #include "scene/response.hpp"
 

@@ -15,7 +15,7 @@
 #include "branches/measures/measures.hpp"
 #include "branches/measures/moving.hpp"
 #include "branches/special_values.hpp"
-#include "branches/start.hpp"
+#include "branches/start/start.hpp"
 #include "branches/walk/violation.hpp"
 #include "point/point.hpp"
 #include "support/loose_scenes.hpp"

@@ -1,4 +1,4 @@
-#include "branches/resting/resting.hpp"
+#include "branches/start/resting.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,10 @@
 #include "branches/equations/newton.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/measures/moving.hpp"
-#include "branches/resting/resting.hpp"
 #include "branches/special_values.hpp"
+#include "branches/start/resting.hpp"
 #include "branches/symmetric_motion.hpp"
+#include "branches/walk/violation.hpp"
 #include "point/point.hpp"
 #include "sweep/sweep.hpp"
 

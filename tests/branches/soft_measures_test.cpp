@@ -11,6 +11,7 @@
 #include "branches/equations/newton.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/measures/moving.hpp"
+#include "branches/walk/violation.hpp"
 #include "point/point.hpp"
 #include "support/random.hpp"
 #include "support/soft_scene.hpp"

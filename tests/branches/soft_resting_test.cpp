@@ -10,8 +10,8 @@
 #include "branches/branch.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/measures/moving.hpp"
-#include "branches/resting/resting.hpp"
 #include "branches/special_values.hpp"
+#include "branches/start/resting.hpp"
 #include "support/soft_scene.hpp"
 #include "sweep/sweep.hpp"
 

@@ -12,7 +12,7 @@
 #include "branches/bumpers.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/special_values.hpp"
-#include "branches/start.hpp"
+#include "branches/start/start.hpp"
 #include "motion/tangent_map.hpp"
 #include "scene/required_effects.hpp"
 #include "stepping/exact.hpp"

@@ -27,6 +27,12 @@ def arrows(guide):
 # Room: its right-hand neighbours; what these may include, it may include too. clatter-verify is a program of its own,
 # which shares nothing with what it proves.
 NEXT = arrows((SOURCE / "src/README.md").read_text(encoding="utf-8")) | {"verify": set()}
+# Rooms within a room, by their own arrows, where its guide has any: all files at its top may include all of these.
+INNER = {
+    guide.parent.name: arrows(text)
+    for guide in sorted(SOURCE.glob("src/*/README.md"))
+    if "## The arrows" in (text := guide.read_text(encoding="utf-8"))
+}
 KNOWN_TO = {  # library header: the only rooms that see it
     r"fftw3": {"observables"},
     r"Eigen": {"observables", "branches"},
@@ -56,7 +62,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
     },
     r"boost/numeric/odeint": {"src/point/dormand_prince_points.cpp"},
     r"boost/math": {
-        "src/branches/resting/resting_branch.cpp",
+        "src/branches/resting_branch.cpp",
         "src/branches/walk/walk.cpp",
         "src/observables/samples/bracketed_root.cpp",
         "src/observables/energy/quadrature.cpp",
@@ -124,12 +130,21 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
 WORDS_OF_ALL = {"math", "scene"}  # their namespaces are inline: every room says Scene, Effects, pi without their name
 
 
-def below(room):
-    """All rooms that a room may include."""
+def below(room, following=None):
+    """All rooms that a room may include, by the neighbours `following` each, else those of src."""
+    following = following or NEXT
     found = set()
-    for neighbour in NEXT[room]:
-        found |= {neighbour} | below(neighbour)
+    for neighbour in following[room]:
+        found |= {neighbour} | below(neighbour, following)
     return found
+
+
+def is_against_inner(path, room, include):
+    """Whether a file in an inner room includes one that isn't to the right of it, or one at the top."""
+    inside, target = path.parent.name, include.split("/")
+    if inside == room or room not in INNER or target[0] != room:
+        return False
+    return len(target) < 3 or target[1] not in below(inside, INNER[room]) | {inside}
 
 
 def sources(root):
@@ -178,7 +193,7 @@ def wrong_includes(root):
             target = include[2].split("/")[0]
             against = include[1] == '"' and target in NEXT and target not in permitted
             foreign = any(re.match(library, include[2]) and room not in seen for library, seen in KNOWN_TO.items())
-            if against or foreign:
+            if against or foreign or is_against_inner(path, room, include[2]):
                 wrong.append(f"{path.relative_to(root)}:{number}: {include[2]}")
     return wrong
 
@@ -225,6 +240,9 @@ class Arrows(unittest.TestCase):
 
     def test_every_room_is_known(self):
         self.assertEqual({room for _, room in sources(SOURCE)} - set(NEXT), set())
+        for room, known in INNER.items():
+            inside = {path.parent.name for path, around in sources(SOURCE) if around == room} - {room}
+            self.assertEqual(inside, set(known), room)
 
     def test_only_lanes_touch_the_array_of_a_lane(self):
         self.assertEqual(touched_lanes(SOURCE), [])
@@ -239,6 +257,9 @@ class Arrows(unittest.TestCase):
                 "src/scene/d.hpp": "namespace clatter {\ninline namespace scene {\nnamespace clatter::math {\n",
                 "src/scene/e.cpp": "namespace clatter {\ninline namespace scene {\n",
                 "src/scene/roots.hpp": "#include <boost/math/tools/roots.hpp>\n",
+                "src/branches/g.cpp": '#include "branches/walk/g.hpp"\n',
+                "src/branches/equations/h.hpp": '#include "branches/walk/g.hpp"\n#include "branches/g.hpp"\n',
+                "src/branches/walk/g.hpp": '#include "branches/equations/h.hpp"\n',
                 "src/plan/f.cpp": '#include "f.hpp"\n',
                 "src/plan/f.hpp": '#include "scene/roots.hpp"\n',
                 "src/sweep/c.cpp": "#include <hdf5.h>\n#include <omp.h>\nusing namespace lanes;\nx.lane[0] = 1;\n",
@@ -248,6 +269,8 @@ class Arrows(unittest.TestCase):
             self.assertEqual(
                 wrong_includes(root),
                 [
+                    "src/branches/equations/h.hpp:1: branches/walk/g.hpp",
+                    "src/branches/equations/h.hpp:2: branches/g.hpp",
                     "src/motion/a.hpp:2: sweep/run.hpp",
                     "src/observables/b.hpp:1: stepping/exact.hpp",
                     "src/scene/roots.hpp:1: boost/math/tools/roots.hpp",

@@ -7,7 +7,7 @@
 #include <set>
 #include <string_view>
 
-#include "branches/start.hpp"
+#include "branches/start/start.hpp"
 #include "config/suggestion.hpp"
 #include "config/value_grammar.hpp"
 #include "outputs/output_summary.hpp"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "branches/equations/followed_scene.hpp"
 #include "branches/equations/orbit.hpp"
-#include "branches/followed_scene.hpp"
 #include "math/number.hpp"
 #include "motion/arc.hpp"
 #include "motion/dry_friction.hpp"

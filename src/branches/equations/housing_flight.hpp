@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "branches/equations/followed_scene.hpp"
 #include "branches/equations/orbit.hpp"
-#include "branches/followed_scene.hpp"
 #include "motion/relative_arc.hpp"
 #include "motion/walls.hpp"
 #include "scene/smooth_effects.hpp"

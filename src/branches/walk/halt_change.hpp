@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "branches/branch.hpp"
 #include "branches/walk/opening.hpp"
+#include "branches/walk/special_kind.hpp"
 #include "branches/walk/touch.hpp"
 
 namespace clatter::branches {

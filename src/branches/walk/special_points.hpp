@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "branches/branch.hpp"
+#include "branches/walk/special_kind.hpp"
 #include "branches/walk/walk.hpp"
 #include "observables/all.hpp"
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "attractors/section_state.hpp"
+#include "branches/equations/followed_scene.hpp"
 #include "branches/equations/orbit.hpp"
-#include "branches/followed_scene.hpp"
 #include "point/problem.hpp"
 
 namespace clatter::branches {

@@ -1,4 +1,4 @@
-#include "branches/start.hpp"
+#include "branches/start/start.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 
 #include "attractors/periodic_motion.hpp"
 #include "branches/measures/measures.hpp"
-#include "branches/resting/resting.hpp"
-#include "branches/start_in_housing.hpp"
+#include "branches/start/resting.hpp"
+#include "branches/start/start_in_housing.hpp"
 #include "point/exact_motion.hpp"
 #include "point/point.hpp"
 #include "scene/response.hpp"

@@ -1,4 +1,4 @@
-#include "branches/start_in_housing.hpp"
+#include "branches/start/start_in_housing.hpp"
 
 #include "attractors/periodic_motion.hpp"
 #include "branches/equations/housing_flight.hpp"

@@ -1,4 +1,4 @@
-#include "branches/followed_scene.hpp"
+#include "branches/equations/followed_scene.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "branches/resting/resting_branch.hpp"
+#include "branches/resting_branch.hpp"
 
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "branches/measures/measures.hpp"
-#include "branches/resting/resting.hpp"
+#include "branches/start/resting.hpp"
 
 namespace clatter::branches {
 namespace {

@@ -1,4 +1,4 @@
-#include "branches/resting/resting.hpp"
+#include "branches/start/resting.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "attractors/exact_run.hpp"
-#include "branches/start.hpp"
+#include "branches/start/start.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::branches {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "branches/start.hpp"
+#include "branches/start/start.hpp"
 
 namespace clatter::branches {
 
