@@ -218,13 +218,13 @@ class Follower {
   /// Without restitution, a flight that begins with a turn into its stop doesn't begin: the mass is pressed, and rests.
   /// Returns whether this is how the branch ends. The motion that rests waits then.
   bool ends_in_rest(const OrbitEquations& equations, const Touch& touch, double step) {
-    const std::size_t impact = touch.impact - 1;
-    const Side side = equations.shape().impacts[impact].side;
-    const OrbitImpact &turn = touch.orbit.impacts[touch.impact], &begins = touch.orbit.impacts[impact];
+    const std::size_t event = touch.event - 1;
+    const Side side = equations.shape().events[event].side;
+    const OrbitEvent &turn = touch.orbit.events[touch.event], &begins = touch.orbit.events[event];
     const bool at_once = turn.side == side && turn.phase - begins.phase < 1e-2;
-    if (!at_once || begins.event != EventKind::impact) return false;
+    if (!at_once || !is_impact(begins.kind)) return false;
     if (numbers_of<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
-    const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, impact}});
+    const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, event}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
     if (!exact || std::abs(exact->back() - touch.beyond.at.back()) > near(step)) return false;
     const BranchPoint last = record_.point(there, {*exact, {}, touch.last_good.arclength});
@@ -263,10 +263,10 @@ class Follower {
     if (!exact && step > 1e-6 * settings_.largest_step) return this->walk(equations, touch.last_good, {}, step / 8);
     if (!exact) return record_.add(last), record_.fail(last, touch.halts ? no_halt_change : no_graze);
     const Orbit with = exact->orbit,
-                without = touch.halts ? halting_at_stop(exact->scene, with, touch.impact) : with.without(touch.impact);
+                without = touch.halts ? halting_at_stop(exact->scene, with, touch.event) : with.without(touch.event);
     last.scene = exact->scene, last.orbit = touch.appears ? without : with;
     record_.add(last);
-    if (!touch.halts && resting().waits_beyond(last, with.impacts[touch.impact].side, generation_))
+    if (!touch.halts && resting().waits_beyond(last, with.events[touch.event].side, generation_))
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;
@@ -274,16 +274,16 @@ class Follower {
     record_.end(last, "graze");
     const int heading = touch.last_good.tangent.back() < 0 ? -1 : 1;
     const bool may_gain = !touch.turns && !touch.appears && !touch.halts && settings_.follows(Birth::graze);
-    if (!is_new && may_gain) wait_for_sooner(waiting_, record_, at, touch.impact, symmetric_, special, generation_);
+    if (!is_new && may_gain) wait_for_sooner(waiting_, record_, at, touch.event, symmetric_, special, generation_);
     if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
-    if (touch.halts && jumps_to_stick(exact->scene, without, touch.impact)) return;
+    if (touch.halts && jumps_to_stick(exact->scene, without, touch.event)) return;
     if (touch.turns)
-      waiting_.push_back({at.scene, turned(with, touch.impact), {}, special, generation_});
+      waiting_.push_back({at.scene, turned(with, touch.event), {}, special, generation_});
     else if (touch.appears)
-      waiting_.push_back(with_contact({at.scene, with, {}, special, generation_}, touch.impact, heading));
+      waiting_.push_back(with_contact({at.scene, with, {}, special, generation_}, touch.event, heading));
     else
       wait_without(at.scene, without, special, heading);
-    if (auto each = may_gain ? with_each(at, touch.impact, symmetric_, special, generation_) : std::nullopt)
+    if (auto each = may_gain ? with_each(at, touch.event, symmetric_, special, generation_) : std::nullopt)
       waiting_.push_back(*std::move(each));
   }
 
@@ -303,7 +303,7 @@ class Follower {
   /// its multipliers at once. A free motion that is symmetric between unlike stops touches both at once, too: then the
   /// motion with these contacts is the branch that ends.
   void end_on(const ExactGraze& exact, const Orbit& ends) {
-    const Condition condition{Condition::Kind::graze, 1, exact.impact};
+    const Condition condition{Condition::Kind::graze, 1, exact.event};
     const OrbitEquations equations = equations_for(exact.orbit, {condition});
     const BranchPoint at = record_.point(equations, {equations.unknowns_of(exact.scene, exact.orbit), {}, 0.0});
     record_.add(at);
@@ -312,9 +312,9 @@ class Follower {
     if (!is_new) return;
     if (exact.orbit.half_turns != ends.half_turns) {
       if (!settings_.follows(Birth::graze)) return record_.leave_out(special);
-      waiting_.push_back(with_contact({at.scene, at.orbit, {}, special, generation_}, exact.impact));
+      waiting_.push_back(with_contact({at.scene, at.orbit, {}, special, generation_}, exact.event));
     }
-    wait_without(at.scene, at.orbit.without(exact.impact), special);
+    wait_without(at.scene, at.orbit.without(exact.event), special);
   }
 
   void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special, int came = 0) {

@@ -17,10 +17,10 @@ constexpr std::size_t along_axis = 0, across_axis = 1;
 
 /// Of those on rigid stops.
 std::size_t slowest_impact(const Orbit& orbit) {
-  const auto slow = std::ranges::min_element(orbit.impacts, {}, [](const OrbitImpact& impact) {
-    return impact.event == EventKind::impact ? std::abs(impact.before) : std::numeric_limits<double>::infinity();
+  const auto slow = std::ranges::min_element(orbit.events, {}, [](const OrbitEvent& event) {
+    return is_impact(event.kind) ? std::abs(event.before) : std::numeric_limits<double>::infinity();
   });
-  return static_cast<std::size_t>(slow - orbit.impacts.begin());
+  return static_cast<std::size_t>(slow - orbit.events.begin());
 }
 
 /// The event with which the shortest contact with a soft stop, or interruption of one, begins; nothing if none is
@@ -30,9 +30,9 @@ std::optional<std::size_t> shortest_contact(const Orbit& orbit) {
   std::optional<std::size_t> found;
   double least = is_short;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
-    const bool contact = to.event == EventKind::separation && presses(from.event),
-               interruption = presses(to.event) && from.event == EventKind::separation && from.side == to.side;
+    const OrbitEvent from = orbit.event(i), to = orbit.event(i + 1);
+    const bool contact = to.kind == Event::Kind::separation && presses(from.kind),
+               interruption = presses(to.kind) && from.kind == Event::Kind::separation && from.side == to.side;
     if ((contact || interruption) && to.phase - from.phase < least) least = to.phase - from.phase, found = i;
   }
   return found;
@@ -41,7 +41,7 @@ std::optional<std::size_t> shortest_contact(const Orbit& orbit) {
 /// A graze, of motion over many periods in one of them, as that of the motion that repeats sooner.
 void make_once(SpecialPoint& graze) {
   Orbit& orbit = graze.at.orbit;
-  if (orbit.impacts[graze.condition.impact].event != EventKind::impact) return;  // is so already
+  if (!is_impact(orbit.events[graze.condition.event].kind)) return;  // is so already
   orbit = orbit.once_with_graze(slowest_impact(orbit), is_symmetric(graze.at.scene));
   graze.condition = {Condition::Kind::graze, 1, slowest_impact(orbit)};
 }
@@ -193,11 +193,11 @@ class CurveFollower {
       return;
     Condition condition = equations.conditions().front();
     const bool of_multiplier = condition.kind == Condition::Kind::multiplier;
-    if (touch->appears && of_multiplier) condition.without = touch->impact;
-    if (touch->appears && !of_multiplier && touch->impact <= condition.impact) ++condition.impact;
+    if (touch->appears && of_multiplier) condition.without = touch->event;
+    if (touch->appears && !of_multiplier && touch->event <= condition.event) ++condition.event;
     BranchPoint last = record_.point(equations, touch->last_good);
     const FollowedScene near = equations.scene_at(touch->beyond.at);
-    const bool on_soft_stop = touch->orbit.impacts[touch->impact].event != EventKind::impact;
+    const bool on_soft_stop = !is_impact(touch->orbit.events[touch->event].kind);
     SpecialKind kind =
         of_multiplier && !touch->appears && !on_soft_stop ? SpecialKind::resonant_graze : SpecialKind::graze;
     auto exact = solved({condition, touch->graze().condition}, near, touch->orbit);
@@ -212,7 +212,7 @@ class CurveFollower {
     if (!exact) return end_near_graze(equations, touch->last_good, no_graze);
     std::tie(last.scene, last.orbit) = *exact;
     record_.note(kind, last);
-    if (touch->appears && kind == SpecialKind::graze) last.orbit = last.orbit.without(touch->impact);
+    if (touch->appears && kind == SpecialKind::graze) last.orbit = last.orbit.without(touch->event);
     record_.add(last), record_.end(last, std::string(name_of(kind)));
   }
 
@@ -258,7 +258,7 @@ class CurveFollower {
   [[nodiscard]] Orbit with_one_slow_impact(Orbit orbit) const {
     const std::size_t kept = slowest_impact(orbit);
     for (std::size_t i = orbit.size(); i-- > 0;)
-      if (i != kept && std::abs(orbit.impacts[i].before) < 1e-2 * speed_unit_) orbit = orbit.without(i);
+      if (i != kept && std::abs(orbit.events[i].before) < 1e-2 * speed_unit_) orbit = orbit.without(i);
     return orbit;
   }
 
@@ -288,7 +288,7 @@ class CurveFollower {
         record_.note(SpecialKind::cusp, record_.point(equations, *turned));
       return;
     }
-    if (equations.shape().impacts[*equations.grazing()].event != EventKind::impact) return;  // no square root there
+    if (!is_impact(equations.shape().events[*equations.grazing()].kind)) return;  // no square root there
     for (const int periods : {1, 2, 3, 4}) {
       if (periods > 1 && equations.shape().mirrored) break;
       const auto resonant = zero_of([&](const CurvePoint& p) { return resonance(equations, p.at, periods); });

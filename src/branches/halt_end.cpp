@@ -14,7 +14,7 @@ std::vector<Violation> grazes_of(const Orbit& orbit, const std::vector<Violation
   std::vector<Violation> grazes;
   for (const Violation& violation : violations) {
     const bool reaches = violation.kind == Violation::Kind::passes_through &&
-                         orbit.impact(violation.impact + 1).event == EventKind::reversal;
+                         orbit.event(violation.event + 1).kind == Event::Kind::reversal;
     if (reaches || violation.kind == Violation::Kind::pulls) grazes.push_back(violation);
   }
   return grazes;
@@ -35,9 +35,9 @@ bool ends_chatter(const Orbit& orbit, std::size_t stick) {
   double slower = 0.0;
   int impacts = 0;
   for (std::size_t i = last.size() - 1; i-- > 0;) {
-    const OrbitImpact& event = last.impacts[i];
-    if (halts(event.event) && event.side == orbit.heading_before(stick)) continue;
-    if (halts(event.event) || event.side != orbit.heading_before(stick) || !(std::abs(event.before) > slower)) break;
+    const OrbitEvent& event = last.events[i];
+    if (halts(event.kind) && event.side == orbit.heading_before(stick)) continue;
+    if (halts(event.kind) || event.side != orbit.heading_before(stick) || !(std::abs(event.before) > slower)) break;
     slower = std::abs(event.before), ++impacts;
   }
   return impacts >= several;
@@ -74,21 +74,21 @@ void end_in_change(const FrictionEnd& end, const BranchPoint& last_good, Record&
                    std::int64_t generation) {
   const ExactGraze& exact = end.exact;
   const HaltChange& change = *end.change;
-  const auto with_form = [&](HaltForm form) { return formed(exact.scene, exact.orbit, exact.impact, form); };
+  const auto with_form = [&](HaltForm form) { return formed(exact.scene, exact.orbit, exact.event, form); };
   BranchPoint at = last_good;
   at.scene = exact.scene, at.orbit = with_form(change.before.value_or(HaltForm::stick));
   const BranchPoint& last = change.before && !exact.joins ? at : last_good;
   record.add(last);
   // beyond the limit the chatter ends in a rest on the stop, which isn't followed under friction
-  if (change.opens == Opening::Kind::rebound && ends_chatter(exact.orbit, exact.impact) &&
+  if (change.opens == Opening::Kind::rebound && ends_chatter(exact.orbit, exact.event) &&
       record.is_of_cascade(last, 1e-4))
     return record.end(last, "chatter limit");
   const auto [special, is_new] = record.note(change.kind, at, change.condition);
   record.end(last, std::string(name_of(change.kind)));
-  const bool jumps = change.opens == Opening::Kind::rebound && slips_on_from_stop(exact.scene, at.orbit, exact.impact);
+  const bool jumps = change.opens == Opening::Kind::rebound && slips_on_from_stop(exact.scene, at.orbit, exact.event);
   if (!is_new || jumps || !(change.beyond || change.opens)) return no_longer_waits(waiting, special, last.orbit);
   waiting.push_back({exact.scene, with_form(change.beyond.value_or(HaltForm::stick)), {}, special, generation});
-  if (change.opens) waiting.back().opens = {*change.opens, exact.impact};
+  if (change.opens) waiting.back().opens = {*change.opens, exact.event};
   if (exact.joins && change.before) waiting.push_back({exact.scene, at.orbit, {}, special, generation});
 }
 

@@ -56,8 +56,8 @@ BranchPoint Record::point(const OrbitEquations& equations, const CurvePoint& at)
   BranchPoint out{branch_, at.arclength, equations.scene_at(at.at), equations.orbit_at(at.at), false, {}, {}};
   const auto grazing = equations.grazing();  // the multipliers are those without the impact that has no speed
   const bool is_nothing = grazing && out.orbit.changes_nothing(*grazing);
-  if (is_nothing && out.orbit.impacts[*grazing].event == EventKind::separation && equations.grazes_outside())
-    out.orbit.impacts[*grazing].before = 0;
+  if (is_nothing && out.orbit.events[*grazing].kind == Event::Kind::separation && equations.grazes_outside())
+    out.orbit.events[*grazing].before = 0;
   const Multipliers of = multipliers(out.scene, is_nothing ? out.orbit.without(*grazing) : out.orbit);
   out.stable = of.stable, out.multiplier_re = of.re, out.multiplier_im = of.im;
   return out;

@@ -14,11 +14,11 @@ namespace clatter::branches {
 namespace {
 
 std::ptrdiff_t rests_of(const Orbit& orbit) {
-  return std::ranges::count_if(orbit.impacts, [](const OrbitImpact& impact) { return impact.rest > 0; });
+  return std::ranges::count_if(orbit.events, [](const OrbitEvent& event) { return event.rest > 0; });
 }
 
 std::ptrdiff_t renewals_of(const Orbit& orbit) {
-  return std::ranges::count(orbit.impacts, EventKind::renewal, &OrbitImpact::event);
+  return std::ranges::count(orbit.events, Event::Kind::renewal, &OrbitEvent::kind);
 }
 
 /// An impact that is a letter of its own, or the begin of a rest, which moves as the last impact of its chatter.
@@ -28,15 +28,15 @@ struct Joint {
 };
 std::vector<Joint> joints_of(const Orbit& orbit, const Moving& moving) {
   std::vector<Joint> joints;
-  auto next = moving.impacts.begin();
+  auto next = moving.events.begin();
   const std::vector<bool> is_letter = are_letters(orbit);
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    const OrbitImpact& impact = orbit.impacts[i];
-    if (impact.rest == 0) {
-      if (is_letter[i]) joints.push_back({next->phase, next->before, 0});
+    const OrbitEvent& event = orbit.events[i];
+    if (event.rest == 0) {
+      if (is_letter[i]) joints.push_back({next->phase, next->coordinate, 0});
       ++next;
-    } else if (next != moving.impacts.begin() && std::prev(next)->rests) {
-      joints.push_back({impact.phase, 0, impact.rest});
+    } else if (next != moving.events.begin() && std::prev(next)->rests) {
+      joints.push_back({event.phase, 0, event.rest});
       joints.back().phase.slope = std::prev(next)->phase.slope;
     }
   }
@@ -66,7 +66,7 @@ RestingBranch::RestingBranch(const StartProblem& problem, const BranchSettings& 
       waiting_(waiting) {}
 
 void RestingBranch::follow(const Waiting& from) {
-  stop_ = from.orbit.impacts.back().side, start_ = value_of(from.scene, settings_.along);
+  stop_ = from.orbit.events.back().side, start_ = value_of(from.scene, settings_.along);
   generation_ = from.generation, cascade_side_ = from.cascade_side;
   if (from.cascade)
     if (const auto known = record_.branch_of(from.orbit.word(), start_)) return join(*known, from);
@@ -228,7 +228,7 @@ void RestingBranch::go_on_beyond(std::size_t limit, double last, const Orbit& go
 /// them, motion without rest begins.
 void RestingBranch::wait_without_rest(std::size_t limit, double last, const Orbit& good, int heading) {
   Orbit landings = good;
-  std::erase_if(landings.impacts, [](const OrbitImpact& impact) { return impact.rest > 0 && impact.rest < 1e-3; });
+  std::erase_if(landings.events, [](const OrbitEvent& event) { return event.rest > 0 && event.rest < 1e-3; });
   if (landings.rests()) return;
   waiting_.push_back({scene(last), landings.half_if_same(1e-6, symmetric_), {}, limit, generation_, heading});
 }

@@ -19,8 +19,8 @@ namespace {
 std::string events_of(const Orbit& orbit) {
   if (!orbit.halts()) return orbit.word();
   std::string letters;
-  for (const OrbitImpact& event : orbit.whole().impacts) {
-    const char letter = event.event == EventKind::stick ? 's' : event.event == EventKind::reversal ? 'r' : 'i';
+  for (const OrbitEvent& event : orbit.whole().events) {
+    const char letter = event.kind == Event::Kind::stick ? 's' : event.kind == Event::Kind::reversal ? 'r' : 'i';
     letters += {letter, event.side == Side::upper ? '+' : '-'};
   }
   std::string first = letters;
@@ -42,8 +42,8 @@ std::string events_of(const Waiting& waiting) {
 
 bool Waiting::begins_across() const {
   if (opens) return opens->kind != Opening::Kind::contact;
-  const auto turns = [](const OrbitImpact& event) { return presses(event.event) && event.before == 0; };
-  return direction || (special && std::ranges::any_of(orbit.impacts, turns));
+  const auto turns = [](const OrbitEvent& event) { return presses(event.kind) && event.before == 0; };
+  return direction || (special && std::ranges::any_of(orbit.events, turns));
 }
 
 void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Orbit& orbit) {
@@ -57,7 +57,7 @@ void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Or
 
 Waiting with_contact(Waiting branch, std::size_t graze, int came) {
   branch.came = came;
-  if (branch.orbit.impacts[graze].event != EventKind::impact) branch.opens = {Opening::Kind::contact, graze};
+  if (!is_impact(branch.orbit.events[graze].kind)) branch.opens = {Opening::Kind::contact, graze};
   return branch;
 }
 
@@ -69,7 +69,7 @@ Waiting daughter_at(const BranchPoint& at, std::size_t special, std::int64_t gen
 
 std::optional<Waiting> with_each(const BranchPoint& at, std::size_t graze, bool symmetric_scene, std::size_t special,
                                  std::int64_t generation) {
-  if (at.orbit.impacts[graze].event != EventKind::impact) return std::nullopt;  // of a soft stop: they join
+  if (!is_impact(at.orbit.events[graze].kind)) return std::nullopt;  // of a soft stop: they join
   const Orbit once = at.orbit.once_with_graze(graze, symmetric_scene);
   if (once.half_turns == at.orbit.half_turns) return std::nullopt;
   return Waiting{at.scene, once, {}, special, generation};
@@ -77,7 +77,7 @@ std::optional<Waiting> with_each(const BranchPoint& at, std::size_t graze, bool 
 
 void wait_for_sooner(std::deque<Waiting>& waiting, const Record& record, const BranchPoint& at, std::size_t graze,
                      bool symmetric_scene, std::size_t special, std::int64_t generation) {
-  if (at.orbit.impacts[graze].event != EventKind::impact) return;
+  if (!is_impact(at.orbit.events[graze].kind)) return;
   const auto add = [&](const std::optional<Waiting>& one) {
     if (!one || one->orbit.size() == 0 || one->orbit.half_turns == at.orbit.half_turns) return;
     const auto is_it = [&](const Waiting& other) {

@@ -14,7 +14,7 @@ namespace {
 using branches::BranchPoint;
 using branches::FollowedScene;
 using branches::Orbit;
-using branches::OrbitImpact;
+using branches::OrbitEvent;
 using branches::SpecialKind;
 using branches::SpecialPoint;
 using branches::StartProblem;
@@ -34,7 +34,7 @@ Problem problem_from(const StartProblem& start, const FollowedScene& scene, cons
 std::optional<std::size_t> grazing(const SpecialPoint& special) {
   using enum branches::Condition::Kind;
   if (special.condition.kind != graze && special.condition.kind != force) return std::nullopt;
-  const std::size_t i = special.condition.impact;
+  const std::size_t i = special.condition.event;
   return i < special.at.orbit.size() && special.at.orbit.changes_nothing(i) ? std::optional(i) : std::nullopt;
 }
 
@@ -50,9 +50,9 @@ Begin begin_of(const FollowedScene& scene, const Orbit& orbit, std::optional<dou
   double length = 0.0;
   const std::size_t flights = std::max<std::size_t>(orbit.size(), 1);
   for (std::size_t i = 0; i < flights; ++i) {
-    double from = orbit.size() > 0 ? orbit.impact(i).phase : *graze;
-    const double to = orbit.size() > 0 ? orbit.impact(i + 1).phase : from + orbit.advance();
-    if (orbit.size() > 0 && branches::presses(orbit.impact(i).event)) continue;
+    double from = orbit.size() > 0 ? orbit.event(i).phase : *graze;
+    const double to = orbit.size() > 0 ? orbit.event(i + 1).phase : from + orbit.advance();
+    if (orbit.size() > 0 && branches::presses(orbit.event(i).kind)) continue;
     const auto consider = [&](double begin, double end) {
       if (end - begin <= length) return;
       length = end - begin, longest.phase = (begin + end) / 2, longest.flight = i;
@@ -75,11 +75,11 @@ std::vector<EventError> errors_after(const FollowedScene& scene, const Orbit& or
                                      double state_error) {
   if (orbit.size() == 0) return {};
   Orbit all = orbit.whole();
-  std::rotate(all.impacts.begin(), all.impacts.begin() + static_cast<std::ptrdiff_t>((begin.flight + 1) % all.size()),
-              all.impacts.end());
+  std::rotate(all.events.begin(), all.events.begin() + static_cast<std::ptrdiff_t>((begin.flight + 1) % all.size()),
+              all.events.end());
   for (std::size_t i = 1; i < all.size(); ++i)
-    while (all.impacts[i].phase < all.impacts[i - 1].phase) all.impacts[i].phase += all.advance();
-  const OrbitImpact& first = all.impacts[0];
+    while (all.events[i].phase < all.events[i - 1].phase) all.events[i].phase += all.advance();
+  const OrbitEvent& first = all.events[0];
   const double nu = scene.oscillator.frequency;
   const double grown = state_error * (1 + all.advance() / nu);  // at the first event, in a flight that is no longer
   std::vector<EventError> errors(all.size());
@@ -155,7 +155,7 @@ CertifiedPoint certified(const SpecialPoint& special, Parameter along, const Sta
       (special.kind == SpecialKind::graze) != graze.has_value())
     return found;
   const Orbit orbit = graze ? kept.without(*graze) : kept;
-  const Begin begin = begin_of(scene, orbit, graze ? std::optional(kept.impacts[*graze].phase) : std::nullopt);
+  const Begin begin = begin_of(scene, orbit, graze ? std::optional(kept.events[*graze].phase) : std::nullopt);
   const Problem problem = problem_from(start, scene, begin.state, 0.0);
   const double nu = scene.oscillator.frequency, period = period_of(problem.oscillator);
   const observables::Extrema::Values range = branches::extrema(scene, kept);
@@ -165,10 +165,10 @@ CertifiedPoint certified(const SpecialPoint& special, Parameter along, const Sta
   Certificate certificate{.scene = problem, .time = begin.phase / nu, .x_error = state_error, .v_error = state_error};
   const Orbit whole = kept.whole();
   for (std::size_t i = 0; i < whole.size(); ++i) {
-    OrbitImpact event = whole.impacts[i];
+    OrbitEvent event = whole.events[i];
     const double late = event.phase - begin.phase;
     event.phase = begin.phase + late - std::floor(late / whole.advance()) * whole.advance();
-    ClaimedEvent claimed{event.event, event.side, {event.phase / nu, time_error}, {event.before, state_error}};
+    ClaimedEvent claimed{event.kind, event.side, {event.phase / nu, time_error}, {event.before, state_error}};
     claimed.grazes = graze && i % kept.size() == *graze;
     certificate.events.push_back(claimed);
   }

@@ -47,7 +47,7 @@ TEST(Branch, of_one_impact_on_each_stop_has_the_special_points_of_the_closed_for
     const auto& [kind, at, branches, condition, left_out] = special;
     EXPECT_EQ(left_out, kind == SpecialKind::symmetry_breaking);  // no generation of what is born there is followed
     if (kind == SpecialKind::impact_speed) {
-      EXPECT_NEAR(at.orbit.impacts[0].before, 1.27925555852649, 1e-14);
+      EXPECT_NEAR(at.orbit.events[0].before, 1.27925555852649, 1e-14);
     }
     if (kind == SpecialKind::fold || kind == SpecialKind::symmetry_breaking) {
       EXPECT_NEAR(at.multiplier_re[0], 1.0, 1e-10);
@@ -109,7 +109,7 @@ TEST(Branch, turns_in_its_fold_and_loses_stability_there) {
 TEST(Branch, has_only_motion_between_the_stops) {
   const Branches found = close_stops();
   for (const BranchPoint& point : found.points) {
-    if (std::ranges::any_of(point.orbit.impacts, [](const OrbitImpact& i) { return std::abs(i.before) < 1e-6; }))
+    if (std::ranges::any_of(point.orbit.events, [](const OrbitEvent& i) { return std::abs(i.before) < 1e-6; }))
       continue;
     const observables::Extrema::Values range = extrema(point.scene, point.orbit);
     EXPECT_LE(range.x_max, 0.5 * (1 + 1e-9)) << point.arclength;

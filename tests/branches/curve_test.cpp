@@ -110,8 +110,8 @@ TEST(Curve, of_grazes_of_the_response_is_its_amplitude) {
   // both ends of the branch at xs = 3 lie on one curve
   std::vector<std::size_t> curves;
   for (const SpecialPoint& special : found.special)
-    if (special.kind == SpecialKind::graze && special.at.orbit.impacts[0].before == 0 &&
-        special.at.orbit.impacts.size() == 1)
+    if (special.kind == SpecialKind::graze && special.at.orbit.events[0].before == 0 &&
+        special.at.orbit.events.size() == 1)
       curves.insert(curves.end(), special.branches.begin(), special.branches.end());
   EXPECT_EQ(curves, (std::vector<std::size_t>{0, 0}));
 }
@@ -130,7 +130,7 @@ TEST(Curve, of_folds_is_that_of_the_closed_form) {
       const double gamma = ((1 + R) * (1 + flow.a) / d - R) / nu, square = alpha * alpha + gamma * gamma;
       const double A = steady_response(h, 1.0, nu).amplitude;
       EXPECT_NEAR(alpha * alpha * g * g, square * (g * g - A * A), 1e-11 * square * g * g) << nu;
-      EXPECT_NEAR(point.orbit.impacts[0].before * (point.orbit.impacts[0].side == Side::upper ? 1 : -1),
+      EXPECT_NEAR(point.orbit.events[0].before * (point.orbit.events[0].side == Side::upper ? 1 : -1),
                   alpha * g / square, 1e-7 * (1 + alpha * g / square))
           << nu;
     });
@@ -142,8 +142,8 @@ TEST(Curve, of_flips_and_lost_symmetry_has_multiplier_minus_one_all_along) {
     const Branches found = follow_curves(two_stops(1.1, 3.0), over_nu_and_stops(curve));
     EXPECT_GT(found.points.size(), 50);
     for (const BranchPoint& point : found.points) {
-      const bool slow = std::ranges::any_of(point.orbit.impacts,
-                                            [](const OrbitImpact& impact) { return std::abs(impact.before) < 1e-2; });
+      const bool slow = std::ranges::any_of(point.orbit.events,
+                                            [](const OrbitEvent& impact) { return std::abs(impact.before) < 1e-2; });
       if (slow) continue;  // the map's elements are large there
       const ImpactMap map = impact_map(point.scene, point.orbit);
       EXPECT_NEAR(map.trace(), -(1 + map.determinant), 1e-8) << curve;

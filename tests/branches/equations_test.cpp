@@ -94,8 +94,8 @@ TEST(OrbitEquations, have_the_closed_form_of_one_impact_on_each_stop_as_solution
       const ImpactMap map = impact_map(scene, orbit);
       // the closer to a fold, the worse conditioned: the distance of a multiplier from 1
       const double condition = 1 + (1 + std::abs(map.trace())) / std::abs(1 + map.determinant - map.trace());
-      EXPECT_NEAR(orbit.impacts[0].before, known.speed, 1e-13 * condition * std::max(1.0, known.speed)) << i;
-      EXPECT_NEAR(std::remainder(orbit.impacts[0].phase - known.phase, 2 * M_PI), 0.0, 1e-12 * condition) << i;
+      EXPECT_NEAR(orbit.events[0].before, known.speed, 1e-13 * condition * std::max(1.0, known.speed)) << i;
+      EXPECT_NEAR(std::remainder(orbit.events[0].phase - known.phase, 2 * M_PI), 0.0, 1e-12 * condition) << i;
       EXPECT_NEAR(map.trace(), known.trace, 1e-11 * condition * (1 + std::abs(known.trace)) / known.speed) << i;
       ++solutions;
     }
@@ -138,7 +138,7 @@ TEST(OrbitEquations, with_a_multiplier_of_one_have_the_fold_of_the_closed_form_a
       const Orbit orbit = equations.orbit_at(*at);
       const double condition = 1 + 1 / fold->speed;
       EXPECT_NEAR(there.oscillator.forcing / fold->forcing, 1.0, 1e-13 * condition) << i;
-      EXPECT_NEAR(orbit.impacts[0].before / fold->speed, 1.0, 1e-10 * condition) << i;
+      EXPECT_NEAR(orbit.events[0].before / fold->speed, 1.0, 1e-10 * condition) << i;
       EXPECT_NEAR(impact_map(there, orbit).distance_to(1), 0.0, 1e-12 * condition) << i;
       ++solutions;
     }
@@ -152,7 +152,7 @@ TEST(OrbitEquations, know_the_multipliers_of_an_unstable_motion) {
   const OrbitEquations equations(scene, guess, {}, 1.0);
   const auto at = solution(equations, equations.unknowns_of(scene, guess), 1e-13);
   ASSERT_TRUE(at);
-  EXPECT_NEAR(equations.orbit_at(*at).impacts[0].before, 0.205083731882872, 1e-14);
+  EXPECT_NEAR(equations.orbit_at(*at).events[0].before, 0.205083731882872, 1e-14);
   const ImpactMap map = impact_map(scene, equations.orbit_at(*at));
   EXPECT_NEAR(map.trace() / 2 + std::sqrt(map.trace() * map.trace() / 4 - map.determinant), 10.4402938, 5e-8);
 }
@@ -183,7 +183,7 @@ TEST(Violation, tells_a_flight_through_a_stop_and_an_impact_that_pulls) {
   const Orbit orbit = equations.orbit_at(*at);
   EXPECT_FALSE(violation(scene, orbit));
   Orbit pulling = orbit;
-  pulling.impacts[0].before = -0.1;
+  pulling.events[0].before = -0.1;
   ASSERT_TRUE(violation(scene, pulling));
   EXPECT_EQ(violation(scene, pulling)->kind, Violation::Kind::pulls);
   const auto quiet = violation(scene, {{}, 1, true});  // the response has an amplitude of 0.33

@@ -32,7 +32,7 @@ struct Flown {
 
   Number& variable(std::size_t i) {
     if (i == 0) return flight.begin;
-    if (i == 1) return flight.before;
+    if (i == 1) return flight.coordinate;
     return i == 2 ? flight.end : *numbers_in(p)[i - of_flight];
   }
 };
@@ -40,7 +40,7 @@ struct Flown {
 template <class Number>
 Flown<Number> flown_of(const FollowedScene& scene, const Flight<double>& flight) {
   return {numbers_of<Number>(scene),
-          {flight.from, Number(flight.begin), Number(flight.before), flight.to, Number(flight.end), flight.leaves,
+          {flight.from, Number(flight.begin), Number(flight.coordinate), flight.to, Number(flight.end), flight.leaves,
            flight.arrives}};
 }
 
@@ -103,26 +103,26 @@ TEST(Flight, has_the_derivatives_that_differences_in_fifty_digits_have) {
 TEST(Flight, has_the_derivatives_of_differences_at_soft_stops) {
   std::mt19937 random(7);
   const auto in = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
-  const std::array<std::pair<EventKind, EventKind>, 6> kinds{{{EventKind::touch, EventKind::separation},
-                                                              {EventKind::renewal, EventKind::separation},
-                                                              {EventKind::separation, EventKind::renewal},
-                                                              {EventKind::separation, EventKind::touch},
-                                                              {EventKind::impact, EventKind::touch},
-                                                              {EventKind::separation, EventKind::impact}}};
+  const std::array<std::pair<Event::Kind, Event::Kind>, 6> kinds{{{Event::Kind::touch, Event::Kind::separation},
+                                                                  {Event::Kind::renewal, Event::Kind::separation},
+                                                                  {Event::Kind::separation, Event::Kind::renewal},
+                                                                  {Event::Kind::separation, Event::Kind::touch},
+                                                                  {Event::Kind::impact, Event::Kind::touch},
+                                                                  {Event::Kind::separation, Event::Kind::impact}}};
   for (std::size_t i = 0; i < 180; ++i) {
     const auto [leaves, arrives] = kinds[i % kinds.size()];
     Scene scene;
     scene.oscillator = {in(0.05, 0.4), in(-2, 2), in(0.5, 3), in(-0.3, 0.3), i % 2 == 0 ? 1.0 : in(0.4, 3)};
     scene.stops = {-in(0.2, 1), in(0.2, 1), in(0.3, 0.9), in(0.3, 0.9)};
-    const bool from_rigid = leaves == EventKind::impact;
+    const bool from_rigid = leaves == Event::Kind::impact;
     if (!from_rigid) scene.stops.stiffness_lower = in(3, 50), scene.stops.damping_lower = in(0.05, 0.6);
-    const bool to_lower = arrives == EventKind::separation || arrives == EventKind::renewal || i % 12 < 6;
-    if (arrives != EventKind::impact && !to_lower)
+    const bool to_lower = arrives == Event::Kind::separation || arrives == Event::Kind::renewal || i % 12 < 6;
+    if (arrives != Event::Kind::impact && !to_lower)
       scene.stops.stiffness_upper = in(3, 50), scene.stops.damping_upper = in(0.05, 0.6);
-    if (arrives == EventKind::touch && to_lower && from_rigid) continue;
-    const bool same_side = to_lower && arrives != EventKind::impact;
+    if (arrives == Event::Kind::touch && to_lower && from_rigid) continue;
+    const bool same_side = to_lower && arrives != Event::Kind::impact;
     const double length = i % 5 == 0 ? in(1e-4, 1e-3) : in(0.05, 2), begin = in(0, 6);
-    const double v = leaves == EventKind::touch || from_rigid ? in(-2, -0.1) : in(0.1, 1);
+    const double v = leaves == Event::Kind::touch || from_rigid ? in(-2, -0.1) : in(0.1, 1);
     expect_derivatives(scene,
                        {Side::lower, begin, v, same_side ? Side::lower : Side::upper, begin + length, leaves, arrives},
                        i % 2 == 1);

@@ -207,7 +207,7 @@ TEST(EndsUnderFriction, are_releases_at_the_crest_of_the_force) {
     for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << end.reason;
     const auto crest = std::ranges::find(found.special, SpecialKind::release_tangency, &SpecialPoint::kind);
     ASSERT_NE(crest, found.special.end());
-    for (const OrbitImpact& stick : crest->at.orbit.impacts)
+    for (const OrbitEvent& stick : crest->at.orbit.events)
       EXPECT_NEAR(crest->at.scene.oscillator.forcing, 0.3554 - std::abs(stick.place), 1e-13);
     EXPECT_NEAR(crest->at.scene.oscillator.forcing, 0.35447744, 1e-8);
   }

@@ -102,10 +102,10 @@ TEST(Sticking, keeps_the_place_alone) {
   ASSERT_EQ(point.orbit.size(), 3);
   EXPECT_NEAR(point.multiplier_re[0], 0.267959696315445, 1e-13);
   EXPECT_EQ(point.multiplier_re[1], 0);
-  EXPECT_NEAR(point.orbit.impacts[0].before, 0.940532086164330, 1e-14);
-  EXPECT_NEAR(point.orbit.impacts[1].before, -0.718708034646616, 1e-14);
-  EXPECT_EQ(point.orbit.impacts[2].event, EventKind::stick);
-  EXPECT_NEAR(point.orbit.impacts[2].place, -0.327636229491487, 1e-14);
+  EXPECT_NEAR(point.orbit.events[0].before, 0.940532086164330, 1e-14);
+  EXPECT_NEAR(point.orbit.events[1].before, -0.718708034646616, 1e-14);
+  EXPECT_EQ(point.orbit.events[2].kind, Event::Kind::stick);
+  EXPECT_NEAR(point.orbit.events[2].place, -0.327636229491487, 1e-14);
 }
 
 /// A slip of no length solves its equations at any speed, and in a graze rounding decides if the mass halts before it.
@@ -155,10 +155,10 @@ TEST(Sticking, strikes_a_stop_that_its_slip_just_reaches) {
     const double at = graze->at.scene.oscillator.frequency;
     EXPECT_EQ(impacts_in_a_period(problem, at - 1e-3), impacts_in_a_period(problem, at + 1e-3) + more);
     const double stop = problem.stops.upper, middle = numbers_of<double>(graze->at.scene).middle();
-    const auto stick = std::ranges::find_if(graze->at.orbit.impacts, [&](const OrbitImpact& event) {
-      return event.event == EventKind::stick && std::abs(std::abs(event.place + middle) - stop) < 1e-12;
+    const auto stick = std::ranges::find_if(graze->at.orbit.events, [&](const OrbitEvent& event) {
+      return event.kind == Event::Kind::stick && std::abs(std::abs(event.place + middle) - stop) < 1e-12;
     });
-    EXPECT_NE(stick, graze->at.orbit.impacts.end());
+    EXPECT_NE(stick, graze->at.orbit.events.end());
     for (std::size_t i = 1; i < found.points.size(); ++i) {
       if (found.points[i].branch != found.points[i - 1].branch) continue;
       const double step = found.points[i].scene.oscillator.frequency - found.points[i - 1].scene.oscillator.frequency;
@@ -181,7 +181,7 @@ TEST(Sticking, has_the_derivatives_of_its_equations) {
     for (const Condition& condition :
          {Condition{.kind = Condition::Kind::multiplier, .multiplier = -1, .without = {}},
           Condition{
-              .kind = Condition::Kind::level, .impact = point.orbit.size() - 1, .without = {}, .side = Side::upper}}) {
+              .kind = Condition::Kind::level, .event = point.orbit.size() - 1, .without = {}, .side = Side::upper}}) {
       const OrbitEquations equations = along_frequency(point, {condition});
       const Vector at = equations.unknowns_of(point.scene, point.orbit);
       const auto here = equations.at(at).value();

@@ -44,16 +44,16 @@ point::Problem energy_sink(double nu) {
 point::Problem impact_damper(double nu) { return loose_scene(0.02, 0.005, 0.01, nu, 0.4, 0.8); }
 
 void expect_closed_form(const BranchPoint& point, std::size_t& compared) {
-  if (!point.orbit.mirrored || point.orbit.size() != 1 || std::abs(point.orbit.impacts[0].before) < 1e-3) return;
+  if (!point.orbit.mirrored || point.orbit.size() != 1 || std::abs(point.orbit.events[0].before) < 1e-3) return;
   const HousingMotion known(point.scene);
-  const OrbitImpact& impact = point.orbit.impacts[0];
+  const OrbitEvent& impact = point.orbit.events[0];
   const double sign = sign_of(impact.side), u = sign * impact.before;
   if (known.discriminant < 1e-6 * known.alpha * known.alpha) return;  // beside the fold, where both are one
   const double off = std::min(std::abs(u - known.speed(1)), std::abs(u - known.speed(-1)));
   const double nu = point.scene.oscillator.frequency;
   EXPECT_LE(off, 1e-11 * u) << nu;
-  EXPECT_NEAR(sign * impact.place, known.place(u), 1e-11) << nu;
-  EXPECT_NEAR(sign * impact.main, known.velocity(u), 1e-11) << nu;
+  EXPECT_NEAR(sign * impact.main.place, known.place(u), 1e-11) << nu;
+  EXPECT_NEAR(sign * impact.main.before, known.velocity(u), 1e-11) << nu;
   ++compared;
 }
 
@@ -93,7 +93,7 @@ TEST(Housing, tells_where_a_pair_of_multipliers_leaves_the_unit_circle) {
   const auto last =
       std::ranges::find(found.points, 1.3, [](const BranchPoint& p) { return p.scene.oscillator.frequency; });
   ASSERT_NE(last, found.points.end());
-  EXPECT_NEAR(std::abs(last->orbit.impacts[0].before), 2.123117, 5e-7);
+  EXPECT_NEAR(std::abs(last->orbit.events[0].before), 2.123117, 5e-7);
   EXPECT_NEAR(std::hypot(last->multiplier_re[0], last->multiplier_im[0]), 1.056775, 5e-7);
   const std::vector<double> told = special_values(found, SpecialKind::neimark_sacker, Parameter("nu"));
   ASSERT_EQ(told.size(), 1);
@@ -211,9 +211,9 @@ void expect_slopes(const OrbitEquations& equations, const Vector& at) {
 TEST(Housing, has_equations_whose_slopes_are_limits_of_differences) {
   point::Problem scene = energy_sink(1.2);
   scene.oscillator.load = 0.1, scene.loose.load = -0.05, scene.shaking = {.base = 0.2, .phase = 0.4};
-  const Orbit orbit{{{Side::lower, 0.4, -1.3, 0, EventKind::impact, 0.3, 0.2},
-                     {Side::lower, 1.1, -0.4, 0, EventKind::impact, -0.2, 0.5},
-                     {Side::upper, 4.0, 1.7, 0, EventKind::impact, 0.1, -0.3}},
+  const Orbit orbit{{{Side::lower, 0.4, -1.3, Event::Kind::strike, 0, 0, {0.3, 0.2}},
+                     {Side::lower, 1.1, -0.4, Event::Kind::strike, 0, 0, {-0.2, 0.5}},
+                     {Side::upper, 4.0, 1.7, Event::Kind::strike, 0, 0, {0.1, -0.3}}},
                     2,
                     false};
   for (const Parameter key :
@@ -229,9 +229,9 @@ TEST(Housing, has_equations_whose_slopes_are_limits_of_differences) {
 /// there, but on the way.
 TEST(Housing, has_an_equation_of_multipliers_whose_slopes_are_limits_of_differences) {
   const FollowedScene scene(static_cast<const Scene&>(energy_sink(1.2)));
-  const Orbit half{{{Side::upper, 0.4, 1.3, 0, EventKind::impact, 0.3, 0.2}}, 1, true};
+  const Orbit half{{{Side::upper, 0.4, 1.3, Event::Kind::strike, 0, 0, {0.3, 0.2}}}, 1, true};
   Orbit three = half.whole();
-  three.impacts.insert(three.impacts.begin() + 1, {Side::upper, 1.1, 0.4, 0, EventKind::impact, -0.2, 0.5});
+  three.events.insert(three.events.begin() + 1, {Side::upper, 1.1, 0.4, Event::Kind::strike, 0, 0, {-0.2, 0.5}});
   for (const Orbit& orbit : {half, three})
     for (const int multiplier : {1, -1})
       for (const Parameter key : {Parameter("nu"), Parameter("stiffness"), Parameter("loose_mass")}) {
@@ -276,8 +276,8 @@ TEST(Housing, goes_on_beyond_a_graze_with_one_impact_more) {
   std::size_t grazes = 0;
   for (const SpecialPoint& special : found.special) {
     if (special.kind != SpecialKind::graze || special.branches.size() < 2) continue;
-    const auto slowest = std::ranges::min(special.at.orbit.impacts, {},
-                                          [](const OrbitImpact& impact) { return std::abs(impact.before); });
+    const auto slowest =
+        std::ranges::min(special.at.orbit.events, {}, [](const OrbitEvent& impact) { return std::abs(impact.before); });
     EXPECT_NEAR(slowest.before, 0, 1e-12);
     std::vector<std::size_t> sizes;
     for (const std::size_t branch : special.branches)

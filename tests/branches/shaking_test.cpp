@@ -35,7 +35,7 @@ std::pair<Scene, Orbit> under_force(const FollowedScene& shaken, Orbit orbit) {
   const auto [f, lead] = force_in_frame(shaken.oscillator, shaken.shaking);
   Scene scene = shaken;
   scene.oscillator.forcing = f, scene.shaking = {};
-  for (OrbitImpact& impact : orbit.impacts) impact.phase += lead;
+  for (OrbitEvent& impact : orbit.events) impact.phase += lead;
   return {scene, orbit};
 }
 
@@ -46,7 +46,7 @@ void expect_motions_under_force(const Branches& found) {
     if (point.orbit.size() == 0) continue;
     const auto [scene, orbit] = under_force(point.scene, point.orbit);
     const double slowest =
-        std::abs(std::ranges::min(orbit.impacts, {}, [](const OrbitImpact& i) { return std::abs(i.before); }).before);
+        std::abs(std::ranges::min(orbit.events, {}, [](const OrbitEvent& i) { return std::abs(i.before); }).before);
     if (slowest < 1e-2) continue;  // ill-conditioned near a graze
     const OrbitEquations equations(scene, orbit, {}, 1.0);
     const auto at = equations.at(equations.unknowns_of(scene, orbit));

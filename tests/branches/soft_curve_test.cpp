@@ -105,10 +105,10 @@ TEST(SoftCurve, of_the_grazing_response_keeps_its_frequency) {
 double least_rate(const BranchPoint& point) {
   const SceneNumbers<double> p = numbers_of<double>(point.scene);
   double least = std::numeric_limits<double>::infinity();
-  for (const OrbitImpact& impact : point.orbit.impacts) {
-    const auto& [side, phase, before, rest, event, place, main] = impact;
+  for (const OrbitEvent& impact : point.orbit.events) {
+    const auto& [side, phase, before, kind, rest, place, main] = impact;
     least = std::min(least, std::abs(before));
-    if (event != EventKind::separation && event != EventKind::renewal) continue;
+    if (kind != Event::Kind::separation && kind != Event::Kind::renewal) continue;
     const double relaxation = p.soft_stop(side).relaxation(), x = p.position(side) - relaxation * before;
     const auto& [h, f, nu, load, k] = p.oscillator;
     const double a = f * std::sin(phase) + load - 2 * h * before - k * x;

@@ -65,8 +65,8 @@ TEST(SoftMeasures, are_those_of_a_run_of_the_simulator) {
     if (!found) continue;
     for (std::size_t i = 1; i < found->points.size(); i += 5) {
       const BranchPoint& point = found->points[i];
-      const auto slow = [](const OrbitImpact& impact) { return std::abs(impact.before) < 1e-5; };
-      if (!point.orbit.meets_soft_stop() || std::ranges::any_of(point.orbit.impacts, slow)) continue;
+      const auto slow = [](const OrbitEvent& impact) { return std::abs(impact.before) < 1e-5; };
+      if (!point.orbit.meets_soft_stop() || std::ranges::any_of(point.orbit.events, slow)) continue;
       if (largest_multiplier(point) > 1e3) continue;
       const point::PointResult run = observed(problem, point);
       const double power = impact_power(point.scene, point.orbit), k = point.scene.oscillator.stiffness;
@@ -113,8 +113,8 @@ TEST(SoftMeasures, of_motion_shaken_off_a_stop_are_those_of_runs) {
     }
     for (std::size_t i = 1; i < found.points.size(); i += 4) {
       const BranchPoint& point = found.points[i];
-      const auto slow = [](const OrbitImpact& impact) { return std::abs(impact.before) < 1e-4; };
-      if (largest_multiplier(point) > 1e2 || std::ranges::any_of(point.orbit.impacts, slow)) continue;
+      const auto slow = [](const OrbitEvent& impact) { return std::abs(impact.before) < 1e-4; };
+      if (largest_multiplier(point) > 1e2 || std::ranges::any_of(point.orbit.events, slow)) continue;
       const point::PointResult run = observed(problem, point);
       EXPECT_NEAR(impact_power(point.scene, point.orbit), run.impact_power, 1e-9 * (1 + run.impact_power))
           << index << ' ' << i;

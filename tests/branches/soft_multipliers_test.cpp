@@ -100,8 +100,8 @@ Tested compare_branch(const point::Problem& problem, const std::array<double, 2>
   const Branches found = follow_branches(problem, {.range = range});
   std::vector<const BranchPoint*> points;
   for (const BranchPoint& point : found.points) {
-    const auto slow = [](const OrbitImpact& impact) { return std::abs(impact.before) < 1e-3; };
-    if (point.orbit.meets_soft_stop() && std::ranges::none_of(point.orbit.impacts, slow)) points.push_back(&point);
+    const auto slow = [](const OrbitEvent& impact) { return std::abs(impact.before) < 1e-3; };
+    if (point.orbit.meets_soft_stop() && std::ranges::none_of(point.orbit.events, slow)) points.push_back(&point);
   }
   Tested tested;
   EXPECT_GE(points.size(), count);

@@ -95,8 +95,8 @@ TEST(SoftBranch, of_random_scenes_has_only_fixed_points_of_the_integrator) {
     for (std::size_t i = 1; i + 1 < found->points.size(); ++i) {
       const BranchPoint& point = found->points[i];
       if (found->points[i - 1].branch != point.branch || found->points[i + 1].branch != point.branch) continue;
-      const auto slow = [](const OrbitImpact& impact) { return std::abs(impact.before) < 1e-5; };
-      if (std::ranges::any_of(point.orbit.impacts, slow)) continue;
+      const auto slow = [](const OrbitEvent& impact) { return std::abs(impact.before) < 1e-5; };
+      if (std::ranges::any_of(point.orbit.events, slow)) continue;
       const std::optional<Round> round = round_of(problem, point);
       ASSERT_TRUE(round) << index;
       const PhasePoint from = state_at_phase_zero(point.scene, point.orbit);
@@ -111,7 +111,7 @@ TEST(SoftBranch, of_random_scenes_has_only_fixed_points_of_the_integrator) {
           << index << ' ' << point.arclength << ' ' << point.orbit.word();
       ++points;
       renewals +=
-          static_cast<std::size_t>(std::ranges::count(point.orbit.impacts, EventKind::renewal, &OrbitImpact::event));
+          static_cast<std::size_t>(std::ranges::count(point.orbit.events, Event::Kind::renewal, &OrbitEvent::kind));
     }
   }
   EXPECT_GT(scenes, 80);

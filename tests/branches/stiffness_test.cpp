@@ -53,7 +53,7 @@ TEST(BouncingBall, repeats_from_its_fold_to_its_flip) {
     std::size_t stable = 0;
     for (const BranchPoint& point : found.points) {
       if (point.orbit.size() != 1 || point.orbit.half_turns != 2 * ball.n) continue;
-      const OrbitImpact& impact = point.orbit.impacts[0];
+      const OrbitEvent& impact = point.orbit.events[0];
       const double Gamma = point.scene.oscillator.forcing;
       EXPECT_NEAR(impact.before, -ball.landing(), 1e-13 * ball.landing()) << Gamma;
       EXPECT_NEAR(Gamma * std::cos(impact.phase), low, 1e-12) << Gamma;
@@ -94,7 +94,7 @@ std::size_t expect_symmetric_motion(const Branches& found) {
     const double critical = std::abs(o.damping * o.damping - o.stiffness);
     if (critical > 0 && critical < 5e-3) continue;  // the closed form's own rounding
     const SymmetricMotion known(point.scene);
-    const OrbitImpact& impact = point.orbit.impacts[0];
+    const OrbitEvent& impact = point.orbit.events[0];
     const double speed = std::abs(impact.before), scale = std::max(1.0, known.gap);
     if (known.discriminant < 1e-4 * known.square * scale * scale || speed < 1e-2) continue;  // ill-conditioned there
     const double fast = known.speed(1), slow = known.speed(-1);
@@ -116,7 +116,7 @@ void expect_folds_of_symmetric_motion(const Branches& found, std::size_t count) 
     const SymmetricMotion known(special.at.scene);
     const double g = known.gap;
     EXPECT_NEAR(known.discriminant, 0.0, 1e-12 * known.square * g * g);
-    EXPECT_NEAR(std::abs(special.at.orbit.impacts[0].before), known.alpha * g / known.square, 1e-6);
+    EXPECT_NEAR(std::abs(special.at.orbit.events[0].before), known.alpha * g / known.square, 1e-6);
     ++folds;
   }
   EXPECT_EQ(folds, count);
@@ -213,7 +213,7 @@ TEST(Branch, begins_where_free_motion_is_aperiodic_to_the_limit) {
     const auto last = std::ranges::max_element(found.points, {},
                                                [](const BranchPoint& point) { return point.scene.oscillator.damping; });
     EXPECT_EQ(last->scene.oscillator.damping, end) << k;
-    return std::abs(last->orbit.impacts[0].before);
+    return std::abs(last->orbit.events[0].before);
   };
   for (const double k : {0.0, 0.25}) EXPECT_NEAR(speed_at_end(k, 0), speed_at_end(k, 0.03), 1e-12) << k;
 }

@@ -35,10 +35,10 @@ std::vector<branches::SpecialPoint> specials_of(const branches::Branches& found,
     for (const auto kind : {branches::SpecialKind::fold, branches::SpecialKind::flip,
                             branches::SpecialKind::symmetry_breaking, branches::SpecialKind::graze})
       if (name_of(kind) == settings.curve) special.kind = kind;
-    const auto grazing = std::ranges::find(point.orbit.impacts, 0.0, &branches::OrbitImpact::before);
-    if (special.kind == branches::SpecialKind::graze && grazing != point.orbit.impacts.end())
+    const auto grazing = std::ranges::find(point.orbit.events, 0.0, &branches::OrbitEvent::before);
+    if (special.kind == branches::SpecialKind::graze && grazing != point.orbit.events.end())
       special.condition = {.kind = branches::Condition::Kind::graze,
-                           .impact = static_cast<std::size_t>(grazing - point.orbit.impacts.begin())};
+                           .event = static_cast<std::size_t>(grazing - point.orbit.events.begin())};
     specials.push_back(special);
   }
   return specials;

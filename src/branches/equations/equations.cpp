@@ -21,8 +21,7 @@ bool is_possible(const FollowedScene& scene, const Orbit& orbit) {
   if (has_loose_mass(scene.loose) && !(scene.loose.lower < scene.loose.upper)) return false;
   const SceneNumbers<double> p = numbers_of<double>(scene);
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (!flight_of<double>(orbit, i).may_vanish(p) && !(orbit.impact(i).phase < orbit.impact(i + 1).phase))
-      return false;
+    if (!flight_of<double>(orbit, i).may_vanish(p) && !(orbit.event(i).phase < orbit.event(i + 1).phase)) return false;
   return true;
 }
 
@@ -31,7 +30,7 @@ void add_flight(const OrbitEquations& of, const Orbit& orbit, std::size_t i, con
                 Linearised& out) {
   const std::size_t row = 2 * i, next = i + 1 == orbit.size() ? 0 : 2 * (i + 1);
   out.residual[row] = end.beyond.value;
-  out.residual[row + 1] = end.coordinate.value - orbit.impact(i + 1).coordinate();
+  out.residual[row + 1] = end.coordinate.value - orbit.event(i + 1).coordinate();
   for (const auto& [equation, slope] : {std::pair(row, &end.beyond.slope), std::pair(row + 1, &end.coordinate.slope)}) {
     out.slope(equation, 2 * i) += (*slope)[by_begin];
     out.slope(equation, 2 * i + 1) += (*slope)[by_before] * of.speed_unit();
@@ -48,7 +47,7 @@ bool add_flights(const OrbitEquations& of, const FollowedScene& scene, const Orb
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       Flight<First> flight = flight_of<First>(orbit, i);
       flight.from_crest = of.is_released_at_crest(i);
-      if (flight.leaves == EventKind::stick && !(flights.start(flight) < flight.end)) return false;
+      if (flight.leaves == Event::Kind::stick && !(flights.start(flight) < flight.end)) return false;
       add_flight(of, orbit, i, flights.fly(flight), out);
     }
     return true;
@@ -57,7 +56,7 @@ bool add_flights(const OrbitEquations& of, const FollowedScene& scene, const Orb
 }
 
 /// The rate of a soft stop's force, over its stiffness, at an event on it.
-First rate_of_force(const SceneNumbers<First>& p, const OrbitImpact& event) {
+First rate_of_force(const SceneNumbers<First>& p, const OrbitEvent& event) {
   const First phase(event.phase, by_begin), v(event.before, by_before);
   const First relaxation = p.soft_stop(event.side).relaxation();
   const auto [f, lead] = p.force();
@@ -66,13 +65,13 @@ First rate_of_force(const SceneNumbers<First>& p, const OrbitImpact& event) {
   return v + relaxation * a;
 }
 /// The force on a mass at rest on a stop.
-First force_on_stop(const SceneNumbers<First>& p, const OrbitImpact& event) {
+First force_on_stop(const SceneNumbers<First>& p, const OrbitEvent& event) {
   const auto [f, lead] = p.force();
   return f * sin(First(event.phase, by_begin) + lead) + p.oscillator.load -
          p.oscillator.stiffness * p.position(event.side);
 }
 /// Of a halt the distance from a stop, or what the force lacks of a level of friction.
-First left_at_halt(const SceneNumbers<First>& p, const OrbitImpact& halt, const Condition& condition) {
+First left_at_halt(const SceneNumbers<First>& p, const OrbitEvent& halt, const Condition& condition) {
   const First x = p.middle() + First(halt.place, by_before);
   if (condition.kind == Condition::Kind::on_stop) return x - p.position(condition.side);
   const auto [f, lead] = p.force();
@@ -83,7 +82,7 @@ First left_at_halt(const SceneNumbers<First>& p, const OrbitImpact& halt, const 
   return left - sign * f * sin(First(halt.phase, by_begin) + lead);
 }
 /// The number that a condition on one event makes 0.
-First left_of(const SceneNumbers<First>& p, const OrbitImpact& event, const Condition& condition) {
+First left_of(const SceneNumbers<First>& p, const OrbitEvent& event, const Condition& condition) {
   if (condition.kind == Condition::Kind::force) return rate_of_force(p, event);
   if (condition.kind == Condition::Kind::release) return force_on_stop(p, event);
   return left_at_halt(p, event, condition);
@@ -91,22 +90,22 @@ First left_of(const SceneNumbers<First>& p, const OrbitImpact& event, const Cond
 
 void add_condition_on_event(const OrbitEquations& of, const FollowedScene& scene, const Orbit& orbit,
                             const Condition& condition, std::size_t row, Linearised& out) {
-  const First left = left_of(numbers_along<First>(scene, of.axes()), orbit.impacts[condition.impact], condition);
-  const std::size_t phase = of.phase_of(condition.impact);
+  const First left = left_of(numbers_along<First>(scene, of.axes()), orbit.events[condition.event], condition);
+  const std::size_t phase = of.phase_of(condition.event);
   out.residual[row] = left.value;
   out.slope(row, phase) = left.slope[by_begin];
   out.slope(row, phase + 1) = left.slope[by_before] * of.speed_unit();
   for (std::size_t k = 0; k < of.axes().size(); ++k)
     out.slope(row, of.first_axis() + k) = left.slope[by_first_axis + k] * of.axes()[k].unit;
 }
-void add_graze(const OrbitEquations& of, const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) {
-  out.residual[row] = orbit.impacts[impact].before;
-  out.slope(row, of.phase_of(impact) + 1) = of.speed_unit();
+void add_graze(const OrbitEquations& of, const Orbit& orbit, std::size_t event, std::size_t row, Linearised& out) {
+  out.residual[row] = orbit.events[event].before;
+  out.slope(row, of.phase_of(event) + 1) = of.speed_unit();
 }
 void add_duration(const OrbitEquations& of, const Orbit& orbit, const Condition& condition, std::size_t row,
                   Linearised& out) {
-  const std::size_t i = condition.impact, next = (i + 1) % orbit.size();
-  out.residual[row] = orbit.impact(i + 1).phase - orbit.impact(i).phase - condition.duration;
+  const std::size_t i = condition.event, next = (i + 1) % orbit.size();
+  out.residual[row] = orbit.event(i + 1).phase - orbit.event(i).phase - condition.duration;
   out.slope(row, of.phase_of(i)) -= 1;
   out.slope(row, of.phase_of(next)) += 1;
 }
@@ -127,7 +126,7 @@ OrbitEquations::OrbitEquations(const FollowedScene& scene, const Orbit& shape, s
 
 std::optional<std::size_t> OrbitEquations::grazing() const {
   for (const Condition& condition : conditions_)
-    if (condition.kind == Condition::Kind::graze || condition.kind == Condition::Kind::force) return condition.impact;
+    if (condition.kind == Condition::Kind::graze || condition.kind == Condition::Kind::force) return condition.event;
   return std::nullopt;
 }
 
@@ -137,18 +136,18 @@ bool OrbitEquations::grazes_outside() const {
 
 bool OrbitEquations::is_released_at_crest(std::size_t halt) const {
   return std::ranges::any_of(conditions_, [&](const Condition& condition) {
-    return condition.kind == Condition::Kind::tangency && condition.impact == halt &&
-           condition.side == shape_.impacts[halt].side;
+    return condition.kind == Condition::Kind::tangency && condition.event == halt &&
+           condition.side == shape_.events[halt].side;
   });
 }
 
 Vector OrbitEquations::unknowns_of(const FollowedScene& scene, const Orbit& orbit) const {
   Vector z(unknowns());
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    const OrbitImpact& impact = orbit.impacts[i];
+    const OrbitEvent& event = orbit.events[i];
     const std::size_t phase = phase_of(i);
-    z[phase] = impact.phase, z[phase + 1] = impact.coordinate() / speed_unit_;
-    if (is_in_housing_) z[phase + 2] = impact.place / speed_unit_, z[phase + 3] = impact.main / speed_unit_;
+    z[phase] = event.phase, z[phase + 1] = event.coordinate() / speed_unit_;
+    if (is_in_housing_) z[phase + 2] = event.main.place / speed_unit_, z[phase + 3] = event.main.before / speed_unit_;
   }
   for (std::size_t k = 0; k < axes_.size(); ++k)
     z[first_axis() + k] = value_of(scene, axes_[k].parameter) / axes_[k].unit;
@@ -158,10 +157,10 @@ Vector OrbitEquations::unknowns_of(const FollowedScene& scene, const Orbit& orbi
 Orbit OrbitEquations::orbit_at(const Vector& z) const {
   Orbit orbit = shape_;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    OrbitImpact& impact = orbit.impacts[i];
+    OrbitEvent& event = orbit.events[i];
     const std::size_t phase = phase_of(i);
-    impact.phase = z[phase], impact.coordinate() = z[phase + 1] * speed_unit_;
-    if (is_in_housing_) impact.place = z[phase + 2] * speed_unit_, impact.main = z[phase + 3] * speed_unit_;
+    event.phase = z[phase], event.coordinate() = z[phase + 1] * speed_unit_;
+    if (is_in_housing_) event.main = {z[phase + 2] * speed_unit_, z[phase + 3] * speed_unit_};
   }
   return orbit;
 }
@@ -191,7 +190,7 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
 void OrbitEquations::add_condition(const FollowedScene& scene, const Orbit& orbit, const Condition& condition,
                                    std::size_t row, Linearised& out) const {
   using Kind = Condition::Kind;
-  if (condition.kind == Kind::graze) return add_graze(*this, orbit, condition.impact, row, out);
+  if (condition.kind == Kind::graze) return add_graze(*this, orbit, condition.event, row, out);
   if (condition.kind == Kind::duration) return add_duration(*this, orbit, condition, row, out);
   if (condition.kind == Kind::force || condition.kind == Kind::release || condition.is_of_halt())
     return add_condition_on_event(*this, scene, orbit, condition, row, out);

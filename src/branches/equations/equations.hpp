@@ -16,19 +16,19 @@ namespace clatter::branches {
 struct Condition {
   enum class Kind : std::uint8_t {
     multiplier,  ///< a multiplier of the orbit as it is kept is `multiplier`, +1 or -1
-    graze,       ///< impact number `impact` has no speed
-    force,       ///< a soft stop's force, zero at event number `impact`, doesn't change there
-    duration,    ///< the flight from event number `impact` on lasts `duration`
-    level,       ///< at event number `impact`, a halt, the other forces are at the static level of friction
-    kinetic,     ///< the same with the kinetic level
-    tangency,    ///< at the place of that halt they only just come to that level
+    graze,       ///< event number `event`, an impact or one on a soft stop, has no speed
+    force,       ///< a soft stop's force, zero at event number `event`, doesn't change there
+    duration,    ///< the flight from event number `event` on lasts `duration`
+    level,       ///< at event number `event`, a halt, the other forces are at the static level of friction
+    kinetic,     ///< there they are at the kinetic level
+    tangency,    ///< at the place of that halt they only just come to the static level
     on_stop,     ///< the place of that halt is that of a stop
-    release      ///< the force on the mass is zero at impact number `impact`, after which it may come to rest if R = 0
+    release  ///< the force on the mass is zero at the impact, event number `event`, after which it may rest if R = 0
   };
   Kind kind = Kind::multiplier;
   int multiplier = 1;
-  std::size_t impact = 0;
-  std::optional<std::size_t> without{};  ///< the multiplier is that of the orbit without this impact, which grazes
+  std::size_t event = 0;
+  std::optional<std::size_t> without{};  ///< the multiplier is that of the orbit without this event, which grazes
   double duration = 0.0;                 ///< of the forcing phase, rad
   Side side = Side::none;                ///< to which the other forces push the halting mass; that stop
 
@@ -37,11 +37,11 @@ struct Condition {
   }
 };
 
-/// The equations of periodic motion with given impacts (multiple shooting over arcs): every flight ends on the stop of
-/// the next impact, with its velocity, or halts in its place. Unknowns are phase and velocity of each impact, or phase
-/// and place of each halt, or at a wall of a housing phase, z', and place and velocity of the main mass; then one or
-/// two parameters, in units of the speed and the widths that the constructor is given. They hold for motion through
-/// stops, too: whether no flight is cut short is another question (`violation`).
+/// The equations of periodic motion with given events (multiple shooting over arcs): every flight ends on the stop of
+/// the next event, with its velocity, or halts in its place. Unknowns are phase and velocity of each event, or phase
+/// and place of each halt, or at a strike phase, z', and place and velocity of the main mass; then one or two
+/// parameters, in units of the speed and the widths that the constructor is given. Motion through stops solves them,
+/// too: `violation` says whether a flight meets a stop before its end.
 class OrbitEquations {
  public:
   /// One parameter, or two, in the user's units; its unit here is the width of its range.
@@ -65,7 +65,7 @@ class OrbitEquations {
     Vector residual;
     Matrix slope;
   };
-  /// Nothing if two impacts have changed places, or the scene has no positive frequency, or stops in the wrong order.
+  /// Nothing if two events have changed places, or the scene has no positive frequency, or stops in the wrong order.
   [[nodiscard]] std::optional<Linearised> at(const Vector& unknowns) const;
 
   [[nodiscard]] Vector unknowns_of(const FollowedScene& scene, const Orbit& orbit) const;
@@ -78,9 +78,9 @@ class OrbitEquations {
   [[nodiscard]] bool stiffness_varies() const { return stiffness_varies_; }
   [[nodiscard]] double speed_unit() const { return speed_unit_; }
   [[nodiscard]] const std::vector<Condition>& conditions() const { return conditions_; }
-  /// The impact, or the event on a soft stop, that grazes by a condition, if there is one.
+  /// The event that grazes by a condition, if there is one.
   [[nodiscard]] std::optional<std::size_t> grazing() const;
-  /// Whether that is the touch of a stop without speed.
+  /// Whether that event is the touch of a stop without speed.
   [[nodiscard]] bool grazes_outside() const;
   /// Whether a condition makes the release of a stick one at the crest of the push, where the formula of it is
   /// singular.
@@ -105,7 +105,7 @@ class OrbitEquations {
   std::size_t per_event_;  ///< unknowns
 };
 
-/// The derivative of the map of one impact to the same impact a period, or half a period, later (impact phase and
+/// The derivative of the map of one impact to the same impact a period, or half a period, later (its phase and
 /// velocity): an impact that grazes has an infinite one, so its denominators are kept apart. Of motion that meets soft
 /// stops it is that of the map of states just before the first event (displacement and velocity), which is finite in
 /// a graze of a soft stop: it has denominators at rigid stops alone.
@@ -129,7 +129,7 @@ struct ImpactMap {
 [[nodiscard]] Vector direction_of_daughter(const FollowedScene& scene, const Orbit& orbit, const Orbit& daughter,
                                            double speed_unit);
 
-/// [impact i][phase, velocity]: how a small change of the first impact spreads over the others.
+/// [event i][phase, velocity]: how a small change of the first event spreads over the others.
 [[nodiscard]] std::vector<std::array<double, 2>> spread(const FollowedScene& scene, const Orbit& orbit,
                                                         std::array<double, 2> change);
 

@@ -25,11 +25,11 @@ std::vector<Link<double>> links_of(const FollowedScene& scene, const Orbit& orbi
     std::vector<Link<double>> links;
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const FlightEnd<Three> end = flights.fly(flight_of<Three>(orbit, i));
-      const EventKind event = orbit.impact(i + 1).event;
+      const Event::Kind kind = orbit.event(i + 1).kind;
       const bool as_any_halt =
-          sticks == Sticks::with_phase && event == EventKind::stick && end.beyond.slope[by_end] != 0;
+          sticks == Sticks::with_phase && kind == Event::Kind::stick && end.beyond.slope[by_end] != 0;
       links.push_back(link_of(end.beyond.slope, end.coordinate.slope, orbit.ends_mirrored(i),
-                              as_any_halt ? EventKind::reversal : event));
+                              as_any_halt ? Event::Kind::reversal : kind));
     }
     return links;
   });
@@ -61,7 +61,7 @@ Vector direction_of_daughter(const FollowedScene& scene, const Orbit& orbit, con
   std::array<double, 2> vector{-m[0][1], m[0][0] + c};  // of (M + 1) v = 0, by the larger row
   if (std::hypot(m[1][0], m[1][1] + c) > std::hypot(m[0][1], m[0][0] + c)) vector = {m[1][1] + c, -m[1][0]};
   std::vector<std::array<double, 2>> changes = spread_round(scene, daughter, vector);
-  if (daughter.impacts[0].event == EventKind::stick) changes.front() = changes.back();  // now with its phase
+  if (daughter.events[0].kind == Event::Kind::stick) changes.front() = changes.back();  // now with its phase
   changes.pop_back();
   Vector direction;
   for (const auto& [phase, before] : changes) direction.push_back(phase), direction.push_back(before / speed_unit);

@@ -27,25 +27,25 @@ decltype(auto) with_arcs(const Scene& scene, Function&& function, bool stiffness
   return with_smooth_effects<false>(oscillator, std::forward<Function>(function));
 }
 
-/// A flight begins just after the impact of velocity `before` on stop `from` at phase `begin`, in rad, and is looked at
-/// when the phase is `end`. At a soft stop it begins or ends with another event. From a halt, of which `before` is the
-/// place, it goes to the side `from`; after a stick from its release on.
+/// A flight begins just after an event at phase `begin`, in rad, with the coordinate and side of that as `OrbitEvent`
+/// has them, and is looked at when the phase is `end`; after a stick it begins with the release.
 template <class Number>
 struct Flight {
   Side from;
-  Number begin, before;
+  Number begin, coordinate;
   Side to;
   Number end;
-  EventKind leaves = EventKind::impact, arrives = EventKind::impact;
+  Event::Kind leaves = Event::Kind::impact, arrives = Event::Kind::impact;
   bool from_crest = false;  ///< after a stick whose release is at the crest of the push, just as strong as the level
 
   /// Whether it is a contact with a soft stop, or an interruption of one: these become infinitely short where they
   /// vanish. An interruption lies beyond the stop's position, but without a damper, on the other side of it.
   template <class AnyNumber>
   [[nodiscard]] bool may_vanish(const SceneNumbers<AnyNumber>& p) const {
-    if (arrives == EventKind::separation) return presses(leaves);
-    if (leaves != EventKind::separation) return false;
-    return arrives == EventKind::renewal || (arrives == EventKind::touch && from == to && p.soft_stop(to).damping == 0);
+    if (arrives == Event::Kind::separation) return presses(leaves);
+    if (leaves != Event::Kind::separation) return false;
+    return arrives == Event::Kind::renewal ||
+           (arrives == Event::Kind::touch && from == to && p.soft_stop(to).damping == 0);
   }
 };
 
@@ -73,14 +73,15 @@ class Flights {
   /// Calls `function(arc)` with the arc that begins with a flight.
   template <class Function>
   decltype(auto) with_arc(const Flight<Number>& flight, Function&& function) const {
-    if (flight.leaves == EventKind::impact)
+    if (flight.leaves == Event::Kind::impact)
       return function(arc_from(towards(opposite(flight.from)), p_.position(flight.from),
-                               Number(-p_.restitution(flight.from) * flight.before), flight.begin));
+                               Number(-p_.restitution(flight.from) * flight.coordinate), flight.begin));
     if (halts(flight.leaves)) return function(arc_from_halt(flight));
     const motion::SoftStop<Number> stop = p_.soft_stop(flight.from);
-    const Number offset = flight.leaves == EventKind::touch ? Number(0) : Number(-stop.relaxation() * flight.before);
+    const Number offset =
+        flight.leaves == Event::Kind::touch ? Number(0) : Number(-stop.relaxation() * flight.coordinate);
     return with_constants(presses(flight.leaves) ? flight.from : Side::none, [&](const auto& constants) {
-      return function(arc_beside(constants, stop.position, offset, flight.before, flight.begin));
+      return function(arc_beside(constants, stop.position, offset, flight.coordinate, flight.begin));
     });
   }
   /// Calls `function(constants)` with those of free motion, or of motion in contact with a soft stop.
@@ -110,9 +111,9 @@ class Flights {
   }
   /// The phase at which motion begins after the event that a flight begins with.
   [[nodiscard]] Number start(const Flight<Number>& flight) const {
-    if (flight.leaves != EventKind::stick) return flight.begin;
+    if (flight.leaves != Event::Kind::stick) return flight.begin;
     if (flight.from_crest) return flight.begin + hold_to_crest(flight.begin, flight.from);
-    return flight.begin + hold_and_beyond(flight.before, flight.begin, flight.from);
+    return flight.begin + hold_and_beyond(flight.coordinate, flight.begin, flight.from);
   }
 
   /// Flies through stops, if it meets any.
@@ -124,7 +125,7 @@ class Flights {
       if (halts(flight.arrives)) return {end.v, Number(end.x - p_.middle())};
       const bool comes_back = flight.from == flight.to && !halts(flight.leaves);
       Number beyond = comes_back ? end.offset : Number(end.x - p_.position(flight.to));
-      if (flight.arrives == EventKind::separation || flight.arrives == EventKind::renewal)
+      if (flight.arrives == Event::Kind::separation || flight.arrives == Event::Kind::renewal)
         beyond += p_.soft_stop(flight.to).relaxation() * end.v;
       return {beyond, end.v};
     });
@@ -221,7 +222,7 @@ class Flights {
   template <class A>
   [[nodiscard]] FlightEnd<Number> fly_beyond(const A& arc, const Flight<Number>& flight, const Number& time) const {
     const Number relaxation = p_.soft_stop(flight.to).relaxation();
-    const bool divided = flight.leaves != EventKind::touch || relaxation == 0;
+    const bool divided = flight.leaves != Event::Kind::touch || relaxation == 0;
     const motion::Motion<Number>& m = arc.start();
     if (time * arc.constants().rate > 1e-2) {
       const motion::Motion<Number> end = arc.at(time);
@@ -257,8 +258,8 @@ class Flights {
   /// At a release the acceleration is the difference of the levels of friction.
   [[nodiscard]] motion::Arc<Number, E> arc_from_halt(const Flight<Number>& flight) const {
     const motion::Arc<Number, E> arc =
-        arc_from(towards(flight.from), Number(p_.middle() + flight.before), Number(0), start(flight));
-    if (flight.leaves != EventKind::stick) return arc;
+        arc_from(towards(flight.from), Number(p_.middle() + flight.coordinate), Number(0), start(flight));
+    if (flight.leaves != Event::Kind::stick) return arc;
     motion::Motion<Number> released = arc.start();
     released.a = sign_of(flight.from) * (p_.friction.static_level - p_.friction.kinetic);
     return {arc.constants(), released};

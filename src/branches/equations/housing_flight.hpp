@@ -30,8 +30,8 @@ struct WallImpact {
   Number v;      ///< its velocity
 };
 
-[[nodiscard]] inline WallImpact<double> wall_impact(const OrbitImpact& impact) {
-  return {impact.side, impact.phase, impact.before, impact.place, impact.main};
+[[nodiscard]] inline WallImpact<double> wall_impact(const OrbitEvent& impact) {
+  return {impact.side, impact.phase, impact.before, impact.main.place, impact.main.before};
 }
 
 /// The flights of a loose mass in its housing at given parameters (eqs. 68 and 70). Arcs refer to it.

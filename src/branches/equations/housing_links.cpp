@@ -24,9 +24,9 @@ SceneNumbers<Number> numbers_along(const FollowedScene& scene, const std::vector
 
 /// The flight of two impacts on numbers that carry derivatives, and the change of both in one direction.
 template <class Number>
-WallImpact<Number> begin_of(const OrbitImpact& impact) {
-  return {impact.side, Number(First(impact.phase, 0)), Number(First(impact.before, 1)), Number(First(impact.place, 2)),
-          Number(First(impact.main, 3))};
+WallImpact<Number> begin_of(const OrbitEvent& impact) {
+  return {impact.side, Number(First(impact.phase, 0)), Number(First(impact.before, 1)),
+          Number(First(impact.main.place, 2)), Number(First(impact.main.before, 3))};
 }
 
 }  // namespace
@@ -37,9 +37,9 @@ std::vector<HousingLink> housing_links(const FollowedScene& scene, const Orbit& 
   const auto add_links = [&]<Effects E>() {
     const HousingFlights<First, E> flights(numbers_along<First>(scene, axes));
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      const OrbitImpact next = orbit.impact(i + 1);
-      const std::array<double, of_wall_impact> there{0.0, next.before, next.place, next.main};
-      const auto end = flights.end(begin_of<First>(orbit.impact(i)), First(next.phase, by_end_phase), next.side);
+      const OrbitEvent next = orbit.event(i + 1);
+      const std::array<double, of_wall_impact> there{0.0, next.before, next.main.place, next.main.before};
+      const auto end = flights.end(begin_of<First>(orbit.event(i)), First(next.phase, by_end_phase), next.side);
       HousingLink link;
       for (std::size_t row = 0; row < of_wall_impact; ++row) {
         const auto& slope = end[row].slope;
@@ -69,12 +69,12 @@ HousingSlopes housing_slopes(const FollowedScene& scene, const Orbit& orbit,
       const auto change = [&](std::size_t impact, std::size_t unknown) {
         return First(right[of_wall_impact * impact + unknown]);
       };
-      WallImpact<Along1> from = begin_of<Along1>(orbit.impact(i));
+      WallImpact<Along1> from = begin_of<Along1>(orbit.event(i));
       from.phase.slope[0] = change(i, 0), from.w.slope[0] = change(i, 1);
       from.place.slope[0] = change(i, 2), from.v.slope[0] = change(i, 3);
-      Along1 phase(First(orbit.impact(i + 1).phase, by_end_phase));
+      Along1 phase(First(orbit.event(i + 1).phase, by_end_phase));
       phase.slope[0] = change(next, 0) * First(closes ? multiplier : 1);
-      const auto end = flights.end(from, phase, orbit.impact(i + 1).side);
+      const auto end = flights.end(from, phase, orbit.event(i + 1).side);
       for (std::size_t row = 0; row < of_wall_impact; ++row) {
         const auto& slope = end[row].slope[0].slope;
         for (std::size_t j = 0; j < of_wall_impact; ++j)

@@ -25,17 +25,17 @@ inline Second variable(double value, std::size_t index) {
 
 template <class Number>
 Flight<Number> flight_of(const Orbit& orbit, std::size_t i) {
-  const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
+  const OrbitEvent from = orbit.event(i), to = orbit.event(i + 1);
   if constexpr (std::is_same_v<Number, Second>)
     return {from.side, variable(from.phase, by_begin), variable(from.coordinate(), by_before),
-            to.side,   variable(to.phase, by_end),     from.event,
-            to.event};
+            to.side,   variable(to.phase, by_end),     from.kind,
+            to.kind};
   else if constexpr (std::is_same_v<Number, double>)
-    return {from.side, from.phase, from.coordinate(), to.side, to.phase, from.event, to.event};
+    return {from.side, from.phase, from.coordinate(), to.side, to.phase, from.kind, to.kind};
   else
     return {from.side, Number(from.phase, by_begin), Number(from.coordinate(), by_before),
-            to.side,   Number(to.phase, by_end),     from.event,
-            to.event};
+            to.side,   Number(to.phase, by_end),     from.kind,
+            to.kind};
 }
 
 /// A variable that a scene's parameter is, in numbers with derivatives by it.
@@ -79,9 +79,10 @@ struct Link {
 /// changes nothing, and its place, at which the velocity is 0, doesn't depend on it: so a stick without a length has a
 /// link, too, though the mass isn't slowed down there.
 template <class Number>
-Link<Number> link_of(const std::array<Number, 3>& x, const std::array<Number, 3>& v, bool mirrored, EventKind arrives) {
+Link<Number> link_of(const std::array<Number, 3>& x, const std::array<Number, 3>& v, bool mirrored,
+                     Event::Kind arrives) {
   Link<Number> link{{{{-x[0], -x[1]}, {x[2] * v[0] - v[2] * x[0], x[2] * v[1] - v[2] * x[1]}}}, x[2]};
-  if (arrives == EventKind::stick) link = {{{{Number(0), Number(0)}, {v[0], v[1]}}}, Number(1)};
+  if (arrives == Event::Kind::stick) link = {{{{Number(0), Number(0)}, {v[0], v[1]}}}, Number(1)};
   if (mirrored) link.numerator[1] = {-link.numerator[1][0], -link.numerator[1][1]};
   return link;
 }
@@ -102,14 +103,14 @@ template <class Number, Effects E>
 Link<Number> link_of_states(const Flights<Number, E>& flights, const Flight<Number>& flight, bool mirrored) {
   const SceneNumbers<Number>& p = flights.parameters();
   Link<Number> link{{{{Number(1), Number(0)}, {Number(0), Number(1)}}}, Number(1)};
-  if (flight.leaves == EventKind::impact) {
-    const Number &R = p.restitution(flight.from), &v = flight.before;
+  if (flight.leaves == Event::Kind::impact) {
+    const Number &R = p.restitution(flight.from), &v = flight.coordinate;
     const Number force = flights.force_at(p.position(flight.from), flight.begin);
     link.numerator = {
         {{-R * v, Number(0)},
          {R * (force - 2 * p.oscillator.damping * v) + force + 2 * p.oscillator.damping * R * v, -R * v}}};
     link.denominator = v;
-  } else if (flight.leaves == EventKind::touch) {
+  } else if (flight.leaves == Event::Kind::touch) {
     link.numerator[1][0] = -2 * p.soft_stop(flight.from).damping;
   }
   const Number time = (flight.end - flight.begin) / p.oscillator.frequency;
@@ -158,11 +159,11 @@ Number determinant_of(const SceneNumbers<Number>& p, const Orbit& orbit) {
   };
   if (orbit.pressed != Side::none) press(orbit.pressed, orbit.advance());
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    const OrbitImpact& impact = orbit.impacts[i];
-    if (impact.event == EventKind::impact) determinant *= p.restitution(impact.side) * p.restitution(impact.side);
-    if (presses(impact.event)) press(impact.side, orbit.impact(i + 1).phase - impact.phase);
-    if (impact.event == EventKind::stick) determinant = Number(0);
-    if (impact.event == EventKind::reversal)
+    const OrbitEvent& impact = orbit.events[i];
+    if (impact.kind == Event::Kind::impact) determinant *= p.restitution(impact.side) * p.restitution(impact.side);
+    if (presses(impact.kind)) press(impact.side, orbit.event(i + 1).phase - impact.phase);
+    if (impact.kind == Event::Kind::stick) determinant = Number(0);
+    if (impact.kind == Event::Kind::reversal)
       determinant *= reversal_factor(p, impact.side, Number(impact.phase), Number(impact.place));
   }
   return determinant;

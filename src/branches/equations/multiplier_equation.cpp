@@ -58,8 +58,7 @@ std::vector<Link<First>> links_of(const OrbitEquations& of, const FollowedScene&
     const Flights<Second, E> flights(numbers_along<Second>(scene, of.axes()));
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const FlightEnd<Second> end = flights.fly(flight_of<Second>(orbit, i));
-      links.push_back(
-          link_of(end.beyond.slope, end.coordinate.slope, orbit.ends_mirrored(i), orbit.impact(i + 1).event));
+      links.push_back(link_of(end.beyond.slope, end.coordinate.slope, orbit.ends_mirrored(i), orbit.event(i + 1).kind));
     }
   };
   with_arcs(scene, add_links, of.stiffness_varies());
@@ -68,9 +67,9 @@ std::vector<Link<First>> links_of(const OrbitEquations& of, const FollowedScene&
 
 /// The determinant of a motion, by the phase and the place of its reversal i: that of the accelerations there.
 First determinant_by_reversal(const SceneNumbers<First>& p, const Orbit& orbit, std::size_t i) {
-  const OrbitImpact& halt = orbit.impacts[i];
+  const OrbitEvent& halt = orbit.events[i];
   Orbit others = orbit;
-  others.impacts.erase(others.impacts.begin() + static_cast<std::ptrdiff_t>(i));
+  others.events.erase(others.events.begin() + static_cast<std::ptrdiff_t>(i));
   return determinant_of(p, others) *
          reversal_factor(p, halt.side, First(halt.phase, by_begin), First(halt.place, by_before));
 }
@@ -102,14 +101,14 @@ void OrbitEquations::add_multiplier(const FollowedScene& scene, const Orbit& all
   for (std::size_t k = 0; k < axes_.size(); ++k)
     out.slope(row, first_axis() + k) += axes_[k].unit * chain.c() * determinant.slope[by_first_axis + k];
   for (std::size_t i = 0; i < count; ++i) {
-    if (orbit.impacts[i].event != EventKind::reversal) continue;
+    if (orbit.events[i].kind != Event::Kind::reversal) continue;
     const First by_halt = determinant_by_reversal(p, orbit, i);
     out.slope(row, phase_at(i)) += chain.c() * by_halt.slope[by_begin];
     out.slope(row, phase_at(i) + 1) += chain.c() * by_halt.slope[by_before] * speed_unit_;
   }
   for (std::size_t i = 0; i < count; ++i) {  // longer contacts with a soft stop take more
-    if (!presses(orbit.impacts[i].event)) continue;
-    const double longer = -2 * p.soft_stop(orbit.impacts[i].side).damping.value / p.oscillator.frequency.value *
+    if (!presses(orbit.events[i].kind)) continue;
+    const double longer = -2 * p.soft_stop(orbit.events[i].side).damping.value / p.oscillator.frequency.value *
                           chain.c() * determinant.value;
     out.slope(row, phase_at(i)) -= longer, out.slope(row, next_phase(i)) += longer;
   }

@@ -11,23 +11,28 @@ using observables::ImpactWord;
 
 Side mirror_image(Side side) { return static_cast<Side>(-sign_of(side)); }
 
-OrbitImpact mirrored(OrbitImpact impact) {
-  return {
-      mirror_image(impact.side), impact.phase, -impact.before, impact.rest, impact.event, -impact.place, -impact.main};
+OrbitEvent mirrored(const OrbitEvent& event) {
+  return {mirror_image(event.side),
+          event.phase,
+          -event.before,
+          event.kind,
+          event.rest,
+          -event.place,
+          {-event.main.place, -event.main.before}};
 }
 
-OrbitImpact later(OrbitImpact impact, double advance) {
-  impact.phase += advance;
-  return impact;
+OrbitEvent later(OrbitEvent event, double advance) {
+  event.phase += advance;
+  return event;
 }
 
 std::vector<ImpactWord::Contact> contacts_of(const Orbit& orbit, bool with_sticks = false) {
   std::vector<ImpactWord::Contact> contacts;
-  for (const OrbitImpact& impact : orbit.whole().impacts) {
-    if (with_sticks && impact.event == EventKind::stick) contacts.push_back({impact.phase, 0.0, Side::none});
-    if (!impact.is_letter()) continue;
-    const bool grazes = impact.before == 0 && impact.rest == 0;  // an impact, too: without speed it would be a rest
-    contacts.push_back({impact.phase, grazes ? 1.0 : impact.before, impact.side});
+  for (const OrbitEvent& event : orbit.whole().events) {
+    if (with_sticks && event.kind == Event::Kind::stick) contacts.push_back({event.phase, 0.0, Side::none});
+    if (!event.is_letter()) continue;
+    const bool grazes = event.before == 0 && event.rest == 0;  // an impact, too: without speed it would be a rest
+    contacts.push_back({event.phase, grazes ? 1.0 : event.before, event.side});
   }
   return contacts;
 }
@@ -39,52 +44,52 @@ double Orbit::advance() const { return std::numbers::pi * half_turns; }
 double Orbit::period_ratio() const { return mirrored ? half_turns : half_turns / 2.0; }
 
 bool Orbit::rests() const {
-  return std::ranges::any_of(impacts, [](const OrbitImpact& impact) { return impact.rest > 0; });
+  return std::ranges::any_of(events, [](const OrbitEvent& event) { return event.rest > 0; });
 }
 
-OrbitImpact Orbit::impact(std::size_t i) const {
-  if (i < size()) return impacts[i];
-  const OrbitImpact before = impact(i - size());
+OrbitEvent Orbit::event(std::size_t i) const {
+  if (i < size()) return events[i];
+  const OrbitEvent before = event(i - size());
   return later(mirrored ? branches::mirrored(before) : before, advance());
 }
 
 Side Orbit::heading_before(std::size_t i) const {
-  if (i > 0) return impacts[i - 1].heading();
-  const Side last = impacts.back().heading();
+  if (i > 0) return events[i - 1].heading();
+  const Side last = events.back().heading();
   return mirrored ? opposite(last) : last;
 }
 
 bool Orbit::meets_soft_stop() const {
-  return pressed != Side::none || std::ranges::any_of(impacts, [](const OrbitImpact& impact) {
-           return impact.event != EventKind::impact && !branches::halts(impact.event);
+  return pressed != Side::none || std::ranges::any_of(events, [](const OrbitEvent& event) {
+           return !is_impact(event.kind) && !branches::halts(event.kind);
          });
 }
 
 bool Orbit::halts() const {
-  return std::ranges::any_of(impacts, [](const OrbitImpact& impact) { return branches::halts(impact.event); });
+  return std::ranges::any_of(events, [](const OrbitEvent& event) { return branches::halts(event.kind); });
 }
 
 bool Orbit::changes_nothing(std::size_t i) const {
-  const EventKind event = impacts[i].event, before = impacts[(i + size() - 1) % size()].event;
-  return event == EventKind::impact || presses(event) == presses(before);
+  const Event::Kind kind = events[i].kind, before = events[(i + size() - 1) % size()].kind;
+  return is_impact(kind) || presses(kind) == presses(before);
 }
 
 Orbit Orbit::from_event(std::size_t i) const {
   Orbit orbit = *this;
-  for (std::size_t k = 0; k < size(); ++k) orbit.impacts[k] = impact(i + k);
+  for (std::size_t k = 0; k < size(); ++k) orbit.events[k] = event(i + k);
   return orbit;
 }
 
 Orbit Orbit::whole() const {
   if (!mirrored) return *this;
-  Orbit orbit{impacts, 2 * half_turns, false};
-  for (std::size_t i = 0; i < size(); ++i) orbit.impacts.push_back(impact(size() + i));
+  Orbit orbit{events, 2 * half_turns, false};
+  for (std::size_t i = 0; i < size(); ++i) orbit.events.push_back(event(size() + i));
   return orbit;
 }
 
 Orbit Orbit::mirror_image() const {
   Orbit orbit = *this;
-  for (OrbitImpact& impact : orbit.impacts) impact = later(branches::mirrored(impact), std::numbers::pi);
+  for (OrbitEvent& event : orbit.events) event = later(branches::mirrored(event), std::numbers::pi);
   orbit.pressed = branches::mirror_image(pressed);
   return orbit;
 }
@@ -93,70 +98,74 @@ Orbit Orbit::repeated(int times) const {
   const Orbit one = whole();
   Orbit orbit{{}, times * one.half_turns, false};
   for (int round = 0; round < times; ++round)
-    for (const OrbitImpact& impact : one.impacts) orbit.impacts.push_back(later(impact, round * one.advance()));
+    for (const OrbitEvent& event : one.events) orbit.events.push_back(later(event, round * one.advance()));
   return orbit;
 }
 
 Orbit Orbit::half_if_same(double tolerance, bool symmetric_scene) const {
-  double farthest = 0, fastest = 0;
-  for (const OrbitImpact& impact : impacts)
-    farthest = std::max(farthest, std::abs(impact.place)), fastest = std::max(fastest, std::abs(impact.main));
-  const auto same = [&](const OrbitImpact& a, const OrbitImpact& b) {
-    return a.side == b.side && a.event == b.event && std::abs(a.phase - b.phase) <= tolerance &&
+  double farthest = 0, fastest = 0;  // of halts and of the main mass
+  for (const OrbitEvent& event : events) {
+    farthest = std::max({farthest, std::abs(event.place), std::abs(event.main.place)});
+    fastest = std::max(fastest, std::abs(event.main.before));
+  }
+  const auto same = [&](const OrbitEvent& a, const OrbitEvent& b) {
+    return a.side == b.side && a.kind == b.kind && std::abs(a.phase - b.phase) <= tolerance &&
            std::abs(a.before - b.before) <= tolerance * std::max(std::abs(a.before), std::abs(b.before)) &&
-           std::abs(a.place - b.place) <= tolerance * farthest && std::abs(a.main - b.main) <= tolerance * fastest;
+           std::abs(a.place - b.place) <= tolerance * farthest &&
+           std::abs(a.main.place - b.main.place) <= tolerance * farthest &&
+           std::abs(a.main.before - b.main.before) <= tolerance * fastest;
   };
   if (pressed != Side::none) return {{}, 2, false, pressed};
   if (size() == 0) return symmetric_scene ? Orbit{{}, 1, true} : Orbit{{}, 2, false};
   for (std::size_t times = 2; times <= size(); ++times) {
     const auto parts = static_cast<int>(times);
     if (size() % times != 0 || half_turns % parts != 0 || (mirrored && times % 2 == 0)) continue;
-    const auto end = impacts.begin() + static_cast<std::ptrdiff_t>(size() / times);
-    const Orbit part{{impacts.begin(), end}, half_turns / parts, half_turns / parts % 2 != 0};  // the force turns, too
+    const auto end = events.begin() + static_cast<std::ptrdiff_t>(size() / times);
+    const Orbit part{{events.begin(), end}, half_turns / parts, half_turns / parts % 2 != 0};  // the force turns, too
     if (part.mirrored && !symmetric_scene) continue;
     bool all_same = true;
-    for (std::size_t i = part.size(); i < size() && all_same; ++i) all_same = same(part.impact(i), impacts[i]);
+    for (std::size_t i = part.size(); i < size() && all_same; ++i) all_same = same(part.event(i), events[i]);
     if (all_same) return part.half_if_same(tolerance, symmetric_scene);
   }
   return *this;
 }
 
-Orbit Orbit::with(const OrbitImpact& impact, std::size_t after) const {
+Orbit Orbit::with(const OrbitEvent& event, std::size_t after) const {
   Orbit orbit = *this;
   orbit.pressed = Side::none;  // from now on the events tell when it is
-  orbit.impacts.insert(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(after), impact);
+  orbit.events.insert(orbit.events.begin() + static_cast<std::ptrdiff_t>(after), event);
   return orbit;
 }
 
-Orbit Orbit::with_event(std::size_t i, EventKind event) const {
+Orbit Orbit::with_kind(std::size_t i, Event::Kind kind) const {
   Orbit orbit = *this;
-  orbit.impacts[i].event = event;
+  orbit.events[i].kind = kind;
   return orbit;
 }
 
 Orbit Orbit::without(std::size_t i) const {
   if (size() == 1)
-    return {{}, mirrored ? 1 : 2, mirrored, impacts[0].event == EventKind::renewal ? impacts[0].side : Side::none};
+    return {{}, mirrored ? 1 : 2, mirrored, events[0].kind == Event::Kind::renewal ? events[0].side : Side::none};
   Orbit orbit = *this;
-  orbit.impacts.erase(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(i));
+  orbit.events.erase(orbit.events.begin() + static_cast<std::ptrdiff_t>(i));
   return orbit;
 }
 
 Orbit Orbit::once_with_graze(std::size_t i, bool symmetric_scene) const {
   const Orbit left = without(i), once = left.half_if_same(1e-6, symmetric_scene);
   if (once.half_turns == half_turns) return *this;
-  OrbitImpact graze = impacts[i];
-  const double first = once.size() > 0 ? once.impacts[0].phase : 0.0;
+  OrbitEvent graze = events[i];
+  const double first = once.size() > 0 ? once.events[0].phase : 0.0;
   const double repetition = std::floor((graze.phase - first) / once.advance());
   if (once.mirrored && std::remainder(repetition, 2.0) != 0) graze = branches::mirrored(graze);
   graze.phase -= repetition * once.advance();
-  const auto later_ones = std::ranges::upper_bound(once.impacts, graze.phase, {}, &OrbitImpact::phase);
-  return once.with(graze, static_cast<std::size_t>(later_ones - once.impacts.begin()));
+  const auto later_ones = std::ranges::upper_bound(once.events, graze.phase, {}, &OrbitEvent::phase);
+  return once.with(graze, static_cast<std::size_t>(later_ones - once.events.begin()));
 }
 
 /// Motion without a letter whose soft stop is left or meets the mass again does so beyond the stop's position.
 std::string Orbit::word(bool with_sticks) const {
-  const Side soft = meets_soft_stop() && !impacts.empty() ? impacts.front().side : pressed;
+  const Side soft = meets_soft_stop() && !events.empty() ? events.front().side : pressed;
   return ImpactWord::word_of(contacts_of(*this, with_sticks), soft);
 }
 std::string Orbit::regime() const { return ImpactWord::regime_of(contacts_of(*this), period_ratio()); }
@@ -164,7 +173,7 @@ std::string Orbit::regime() const { return ImpactWord::regime_of(contacts_of(*th
 Orbit orbit_of(const attractors::Round& round, double nu, double phase) {
   Orbit orbit{{}, 2 * static_cast<int>(round.orbit.periods), false};
   for (const auto& contact : round.contacts)
-    orbit.impacts.push_back({contact.side, phase + nu * contact.time, contact.before});
+    orbit.events.push_back({contact.side, phase + nu * contact.time, contact.before});
   return orbit;
 }
 

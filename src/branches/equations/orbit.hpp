@@ -11,53 +11,61 @@
 
 namespace clatter::branches {
 
-using EventKind = motion::Event::Kind;
+using motion::Event;
 
 /// Whether the mass is in contact with a soft stop after an event.
-[[nodiscard]] constexpr bool presses(EventKind event) {
-  return event == EventKind::touch || event == EventKind::renewal;
+[[nodiscard]] constexpr bool presses(Event::Kind kind) {
+  return kind == Event::Kind::touch || kind == Event::Kind::renewal;
 }
 
 /// Whether the mass halts at an event: dry friction ends a slip, and the velocity is 0.
-[[nodiscard]] constexpr bool halts(EventKind event) {
-  return event == EventKind::stick || event == EventKind::reversal;
+[[nodiscard]] constexpr bool halts(Event::Kind kind) {
+  return kind == Event::Kind::stick || kind == Event::Kind::reversal;
 }
 
-/// One impact of a periodic motion, or another event on a stop, or the instant at which it comes to rest there, or at
-/// which it halts away from the stops.
-struct OrbitImpact {
-  Side side = Side::none;  ///< the stop; of a halt the side that the mass slips to next
-  double phase = 0.0;      ///< forcing phase, rad, growing from impact to impact
-  double before = 0.0;     ///< velocity before the impact; at a soft stop it goes on
-  double rest = 0.0;       ///< forcing phase, rad, for which the mass rests from then on
-  EventKind event = EventKind::impact;
-  double place = 0.0;  ///< of a halt, or of the main mass at an impact on a wall: displacement from
-                       ///< `SceneNumbers::middle`
-  double main = 0.0;   ///< at an impact on a wall: velocity of the main mass before it; `before` is that in the housing
+/// Whether restitution changes the velocity: on a rigid stop, or on a wall of a housing.
+[[nodiscard]] constexpr bool is_impact(Event::Kind kind) {
+  return kind == Event::Kind::impact || kind == Event::Kind::strike;
+}
+
+/// An event of a periodic motion by the numbers that its equations solve for. An `Event` has others: its time in tau,
+/// which depends on the frequency, and all that follows from these, such as the velocity after it.
+struct OrbitEvent {
+  Side side = Side::none;  ///< the stop or the wall; of a halt the side that the mass slips to next
+  double phase = 0.0;      ///< forcing phase, rad, growing from event to event
+  double before = 0.0;     ///< velocity before it, of a loose mass z'
+  Event::Kind kind = Event::Kind::impact;
+  double rest = 0.0;   ///< forcing phase, rad, for which the mass rests on the stop from then on
+  double place = 0.0;  ///< of a halt: displacement from `SceneNumbers::middle`
+  /// The main mass at a strike: its displacement from `SceneNumbers::middle`, and its velocity before it.
+  struct Main {
+    double place = 0.0, before = 0.0;
+  };
+  Main main{};
 
   /// The unknown beside the phase: the velocity before the event, or the place of a halt.
-  [[nodiscard]] double coordinate() const { return halts(event) ? place : before; }
-  [[nodiscard]] double& coordinate() { return halts(event) ? place : before; }
+  [[nodiscard]] double coordinate() const { return halts(kind) ? place : before; }
+  [[nodiscard]] double& coordinate() { return halts(kind) ? place : before; }
   /// The side that the mass moves to after a halt, or a rebound from a rigid stop.
-  [[nodiscard]] Side heading() const { return halts(event) ? side : opposite(side); }
+  [[nodiscard]] Side heading() const { return halts(kind) ? side : opposite(side); }
 
   /// Whether it is a contact from outside: an impact, or a touch.
-  [[nodiscard]] bool is_contact() const { return event == EventKind::impact || event == EventKind::touch; }
+  [[nodiscard]] bool is_contact() const { return is_impact(kind) || kind == Event::Kind::touch; }
   /// Whether it is a letter of the impact word: an impact, a touch, or a graze of a soft stop.
-  [[nodiscard]] bool is_letter() const { return is_contact() || (event == EventKind::separation && before == 0); }
+  [[nodiscard]] bool is_letter() const { return is_contact() || (kind == Event::Kind::separation && before == 0); }
 };
 
-/// A periodic motion by its impacts. A motion that is its own mirror image half a period later is kept as that half,
+/// A periodic motion by its events. A motion that is its own mirror image half a period later is kept as that half,
 /// so that the loss of its symmetry and its fold are told apart.
 struct Orbit {
-  std::vector<OrbitImpact> impacts;
-  int half_turns = 2;         ///< half forcing periods after which the impacts begin again, mirrored if so said
+  std::vector<OrbitEvent> events;
+  int half_turns = 2;         ///< half forcing periods after which the events begin again, mirrored if so said
   bool mirrored = false;      ///< then half_turns is odd
   Side pressed = Side::none;  ///< of motion without events: the soft stop that it is always in contact with
 
-  [[nodiscard]] std::size_t size() const { return impacts.size(); }
+  [[nodiscard]] std::size_t size() const { return events.size(); }
   [[nodiscard]] bool rests() const;  ///< on a stop, once in a period or more often
-  [[nodiscard]] bool next_is_rest(std::size_t i) const { return i + 1 < size() && impacts[i + 1].rest > 0; }
+  [[nodiscard]] bool next_is_rest(std::size_t i) const { return i + 1 < size() && events[i + 1].rest > 0; }
   [[nodiscard]] bool meets_soft_stop() const;
   [[nodiscard]] bool halts() const;  ///< by dry friction, away from the stops
   /// Whether the motion is the same without the event i, which grazes.
@@ -66,8 +74,8 @@ struct Orbit {
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
   /// Whether the flight after event i ends in the mirror image of the first one.
   [[nodiscard]] bool ends_mirrored(std::size_t i) const { return mirrored && i + 1 == size(); }
-  /// Impact i = 0, 1, ...: from number size on it is one of the first again, half a period or a period later.
-  [[nodiscard]] OrbitImpact impact(std::size_t i) const;
+  /// Event i = 0, 1, ...: from number size on it is one of the first again, half a period or a period later.
+  [[nodiscard]] OrbitEvent event(std::size_t i) const;
   /// The side that the mass moves to before event i, if it is one of rigid stops and dry friction.
   [[nodiscard]] Side heading_before(std::size_t i) const;
 
@@ -77,10 +85,10 @@ struct Orbit {
   [[nodiscard]] Orbit repeated(int times) const;        ///< of the whole, as if it repeated only after so many periods
   /// One of its repetitions, if it repeats sooner; kept as a half, if it can be.
   [[nodiscard]] Orbit half_if_same(double tolerance, bool symmetric_scene) const;
-  [[nodiscard]] Orbit with(const OrbitImpact& impact, std::size_t after) const;
-  [[nodiscard]] Orbit with_event(std::size_t i, EventKind event) const;  ///< event i is another one
-  [[nodiscard]] Orbit without(std::size_t i) const;  ///< motion without impacts has the force's period
-  /// The motion in one repetition of what is left without impact i, which has no speed: a motion over many periods that
+  [[nodiscard]] Orbit with(const OrbitEvent& event, std::size_t after) const;
+  [[nodiscard]] Orbit with_kind(std::size_t i, Event::Kind kind) const;  ///< event i is another one
+  [[nodiscard]] Orbit without(std::size_t i) const;  ///< motion without events has the force's period
+  /// The motion in one repetition of what is left without event i, which has no speed: a motion over many periods that
   /// grazes in one of them grazes in all.
   [[nodiscard]] Orbit once_with_graze(std::size_t i, bool symmetric_scene) const;
 
@@ -89,7 +97,7 @@ struct Orbit {
   [[nodiscard]] std::string regime() const;  ///< likewise
 };
 
-/// The impacts of a motion that was run over whole forcing periods from a phase on, in rad.
+/// The motion of a run between rigid stops over whole forcing periods from a phase on, in rad.
 [[nodiscard]] Orbit orbit_of(const attractors::Round& round, double nu, double phase = 0.0);
 
 }  // namespace clatter::branches

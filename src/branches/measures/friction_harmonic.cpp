@@ -29,16 +29,16 @@ Harmonic harmonic_of(const Moving& moving) {
   const Flights<Along, E> flights(moving.p);
   const Along& nu = moving.p.oscillator.frequency;
   Harmonic sum;
-  const std::size_t count = moving.impacts.size();
+  const std::size_t count = moving.events.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const Moving::Impact &from = moving.impacts[i], &to = moving.impacts[(i + 1) % count];
+    const MovingEvent &from = moving.events[i], &to = moving.events[(i + 1) % count];
     const Along end = i + 1 < count ? to.phase : to.phase + moving.period * nu;
-    const Flight<Along> flight{from.side, from.phase, from.before, to.side, end, from.event, to.event};
+    const Flight<Along> flight{from.side, from.phase, from.coordinate, to.side, end, from.kind, to.kind};
     const Along start = flights.start(flight);
-    const Side heading = halts(from.event) ? from.side : opposite(from.side);
+    const Side heading = halts(from.kind) ? from.side : opposite(from.side);
     add_constant(-sign_of(heading) * moving.p.friction.kinetic, {start, end}, nu, sum);
-    if (from.event != EventKind::stick) continue;
-    const Along place = moving.p.middle() + from.before;
+    if (from.kind != Event::Kind::stick) continue;
+    const Along place = moving.p.middle() + from.coordinate;
     add_constant(-flights.constants().constant_force(place), {from.phase, start}, nu, sum);
     add_balance(moving.p.force(), {from.phase, start}, nu, sum);
   }

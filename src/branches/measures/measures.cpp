@@ -24,11 +24,11 @@ void each_flight(const FollowedScene& scene, const Orbit& orbit, Function&& func
       return flights.with_response(
           orbit.pressed, [&](const auto& arc, const auto&) { function(arc, 0.0, flights.constants().period); });
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      OrbitImpact from = orbit.impact(i);
-      const OrbitImpact to = orbit.impact(i + 1);
+      OrbitEvent from = orbit.event(i);
+      const OrbitEvent to = orbit.event(i + 1);
       if (to.rest > 0) continue;  // the flights that are left of a chatter reach nowhere
       from.phase += from.rest;
-      const Flight<double> flight{from.side, from.phase, from.coordinate(), to.side, to.phase, from.event, to.event};
+      const Flight<double> flight{from.side, from.phase, from.coordinate(), to.side, to.phase, from.kind, to.kind};
       const double start = flights.start(flight);
       flights.with_arc(flight,
                        [&](const auto& arc) { function(arc, start, (to.phase - start) / flights.constants().nu); });
@@ -43,16 +43,16 @@ void each_flight_in_housing(const FollowedScene& scene, const Orbit& orbit, Func
   with_arcs_of_main(scene, [&]<Effects E>() {
     const HousingFlights<double, E> flights{numbers_of<double>(scene)};
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      const OrbitImpact from = orbit.impact(i);
+      const OrbitEvent from = orbit.event(i);
       function(flights.after(wall_impact(from)), from.phase,
-               (orbit.impact(i + 1).phase - from.phase) / flights.constants().nu);
+               (orbit.event(i + 1).phase - from.phase) / flights.constants().nu);
     }
   });
 }
 
 /// The forcing phase, rad, for which a stick lasts; 0 of any other event.
-double hold(const FollowedScene& scene, const OrbitImpact& event) {
-  if (event.event != EventKind::stick) return 0.0;
+double hold(const FollowedScene& scene, const OrbitEvent& event) {
+  if (event.kind != Event::Kind::stick) return 0.0;
   return with_arcs(scene, [&]<Effects E>() {
     const Flights<double, E> flights{numbers_of<double>(scene)};
     return flights.hold(event.place, event.phase, event.side);
@@ -60,9 +60,9 @@ double hold(const FollowedScene& scene, const OrbitImpact& event) {
 }
 
 /// The state of a mass that stands still from an event on.
-SectionState standing(const FollowedScene& scene, const OrbitImpact& event) {
+SectionState standing(const FollowedScene& scene, const OrbitEvent& event) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
-  return {halts(event.event) ? p.middle() + event.place : p.position(event.side), 0.0};
+  return {halts(event.kind) ? p.middle() + event.place : p.position(event.side), 0.0};
 }
 
 Multipliers multipliers_in_housing(const FollowedScene& scene, const Orbit& orbit) {
@@ -92,18 +92,18 @@ SectionState state_on(const motion::RelativeArc<double, E>& arc, double begin, d
 observables::Extrema::Values extrema_in_housing(const FollowedScene& scene, const Orbit& whole,
                                                 const std::optional<FrameMotion>& frame) {
   // of a span that begins at phase 0 and ends with the first impact, where the main mass has this state
-  const OrbitImpact& first = whole.impacts.at(0);
+  const OrbitEvent& first = whole.events.at(0);
   const observables::ObservedSpan span{.scene = scene, .turns = first.phase / (2 * std::numbers::pi), .frame = frame};
   observables::Extrema::Observer extrema({}, span);
   each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
     extrema.arc(motion::HousedArc{arc.main(), arc}, begin / arc.constants().nu, length);
   });
-  for (const OrbitImpact& impact : whole.impacts) {
-    const double wall = impact.side == Side::upper ? scene.loose.upper : scene.loose.lower;
-    extrema.event(
-        {.kind = EventKind::strike, .side = impact.side, .place = wall, .main = {0.0, impact.main, impact.main}});
+  for (const OrbitEvent& event : whole.events) {
+    const double wall = event.side == Side::upper ? scene.loose.upper : scene.loose.lower;
+    const double main = event.main.before;
+    extrema.event({.kind = event.kind, .side = event.side, .place = wall, .main = {0.0, main, main}});
   }
-  return extrema.finish(span, numbers_of<double>(scene).middle() + first.place, first.main);
+  return extrema.finish(span, numbers_of<double>(scene).middle() + first.main.place, first.main.before);
 }
 
 }  // namespace
@@ -157,11 +157,11 @@ SectionState state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit)
     state = {m.x, m.v};
   });
   if (state) return *state;
-  for (const OrbitImpact& impact : whole.impacts)  // it rests then, or sticks, or is about to
-    if (std::ceil(impact.phase / turn) * turn <= impact.phase + impact.rest + hold(scene, impact))
-      return standing(scene, impact);
+  for (const OrbitEvent& event : whole.events)  // it rests then, or sticks, or is about to
+    if (std::ceil(event.phase / turn) * turn <= event.phase + event.rest + hold(scene, event))
+      return standing(scene, event);
   const auto rest = std::ranges::find_if(
-      whole.impacts, [](const OrbitImpact& impact) { return impact.rest > 0 || impact.event == EventKind::stick; });
+      whole.events, [](const OrbitEvent& event) { return event.rest > 0 || event.kind == Event::Kind::stick; });
   return standing(scene, *rest);
 }
 
@@ -186,9 +186,9 @@ std::vector<SectionState> states_at_phase(const FollowedScene& scene, const Orbi
       states.push_back({m.x, m.v});
     });
   });
-  for (const OrbitImpact& impact : whole.impacts)
-    if (const double stands = impact.rest + hold(scene, impact); stands > 0)
-      each_instant(impact.phase, stands, [&](double) { states.push_back(standing(scene, impact)); });
+  for (const OrbitEvent& event : whole.events)
+    if (const double stands = event.rest + hold(scene, event); stands > 0)
+      each_instant(event.phase, stands, [&](double) { states.push_back(standing(scene, event)); });
   return states;
 }
 
@@ -208,13 +208,13 @@ observables::Extrema::Values extrema_as_computed(const FollowedScene& scene, con
   });
   const SceneNumbers<double> p = numbers_of<double>(scene);
   if (!moves) {  // where motion ceases
-    const double x = p.middle() + whole.impacts[0].place;
+    const double x = p.middle() + whole.events[0].place;
     extrema.include({x, x}, {0.0, 0.0});
   }
-  for (const OrbitImpact& impact : whole.impacts) {
-    if (impact.event != EventKind::impact) continue;  // the arcs have all others
-    const double x = p.position(impact.side);
-    extrema.include({x, x}, {impact.before, impact.before});
+  for (const OrbitEvent& event : whole.events) {
+    if (event.kind != Event::Kind::impact) continue;  // the arcs have all others
+    const double x = p.position(event.side);
+    extrema.include({x, x}, {event.before, event.before});
   }
   const auto x = extrema.displacement({}), v = extrema.velocity();
   return {x.low, x.high, v.low, v.high};
@@ -222,8 +222,8 @@ observables::Extrema::Values extrema_as_computed(const FollowedScene& scene, con
 
 double impact_speed(const Orbit& orbit) {
   double fastest = 0;
-  for (const OrbitImpact& impact : orbit.impacts)
-    if (impact.is_letter()) fastest = std::max(fastest, std::abs(impact.before));
+  for (const OrbitEvent& event : orbit.events)
+    if (event.is_letter()) fastest = std::max(fastest, std::abs(event.before));
   return fastest;
 }
 
@@ -231,8 +231,8 @@ double impact_power(const FollowedScene& scene, const Orbit& orbit) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
   double all = 0;
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (orbit.impacts[i].event == EventKind::impact)
-      all += lost_in_impact(p, orbit.impacts[i].side, orbit.impacts[i].before, orbit.next_is_rest(i));
+    if (is_impact(orbit.events[i].kind))
+      all += lost_in_impact(p, orbit.events[i].side, orbit.events[i].before, orbit.next_is_rest(i));
   if (orbit.meets_soft_stop()) all += loss_on_soft_stops(scene, orbit);
   return all * p.oscillator.frequency / orbit.advance() * p.mass;
 }

@@ -11,11 +11,11 @@
 namespace clatter::branches {
 namespace {
 
-/// A motion at some parameters, which don't change if p doesn't, without its impacts.
+/// A motion at some parameters, which don't change if p doesn't, without its events.
 Moving motion_at(const FollowedScene& scene, const Orbit& orbit, const SceneNumbers<Along>& p) {
   return {.scene = scene,
           .p = p,
-          .impacts = {},
+          .events = {},
           .period = Along(orbit.advance()) / p.oscillator.frequency,
           .pressed = orbit.pressed,
           .soft = orbit.meets_soft_stop()};
@@ -47,10 +47,10 @@ Moving moving(const OrbitEquations& equations, const Vector& point, const Vector
   Moving m = motion_at(scene, orbit, numbers_of<Along>(scene, vary));
   m.stiffness_varies = equations.stiffness_varies();
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    Along phase(orbit.impacts[i].phase), coordinate(orbit.impacts[i].coordinate());
+    Along phase(orbit.events[i].phase), coordinate(orbit.events[i].coordinate());
     const std::size_t unknown = equations.phase_of(i);
     phase.slope[0] = tangent[unknown], coordinate.slope[0] = tangent[unknown + 1] * equations.speed_unit();
-    m.impacts.push_back({orbit.impacts[i].side, phase, coordinate, false, orbit.impacts[i].event});
+    m.events.push_back({orbit.events[i].side, phase, coordinate, false, orbit.events[i].kind});
   }
   return m;
 }
@@ -64,7 +64,7 @@ Moving moving_from_release(const FollowedScene& scene, const Orbit& orbit, Param
       scene, [&](auto& given) { set(given, parameter, Four(value_of(scene, parameter), by_parameter)); });
   // f sin(phase + lead) + load = k x at a release
   const LeadingForce<Along> force = m.p.force();
-  const auto release = [&](const OrbitImpact& rest) {
+  const auto release = [&](const OrbitEvent& rest) {
     Along phase(rest.phase + rest.rest);
     const double of_force = phase.value + force.lead.value, sine = std::sin(of_force), cosine = std::cos(of_force);
     const Along needed = m.p.oscillator.stiffness * m.p.position(rest.side) - m.p.oscillator.load;
@@ -72,53 +72,53 @@ Moving moving_from_release(const FollowedScene& scene, const Orbit& orbit, Param
         (needed.slope[0] - force.amplitude.slope[0] * sine) / (force.amplitude.value * cosine) - force.lead.slope[0];
     return phase;
   };
-  const auto add_impacts = [&]<Effects E>() {
+  const auto add_events = [&]<Effects E>() {
     const Flights<Four, E> flights(p);
-    OrbitImpact last = orbit.impacts.back();
+    OrbitEvent last = orbit.events.back();
     Along begin = release(last), before = 0;
     begin.value -= orbit.advance();
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      const OrbitImpact& impact = orbit.impacts[i];
-      Along end(impact.phase), speed(impact.before);
-      if (impact.rest > 0) {
-        end = release(impact), speed = 0;
+      const OrbitEvent& event = orbit.events[i];
+      Along end(event.phase), speed(event.before);
+      if (event.rest > 0) {
+        end = release(event), speed = 0;
       } else {
         const FlightEnd<Four> flown =
-            flights.fly({last.side, Four(begin.value, by_begin), Four(before.value, by_before), impact.side,
-                         Four(impact.phase, by_end), last.event, impact.event});
+            flights.fly({last.side, Four(begin.value, by_begin), Four(before.value, by_before), event.side,
+                         Four(event.phase, by_end), last.kind, event.kind});
         const auto along = [&](const Four& number) {
           return number.slope[by_begin] * begin.slope[0] + number.slope[by_before] * before.slope[0] +
                  number.slope[by_parameter];
         };
         end.slope[0] = -along(flown.beyond) / flown.beyond.slope[by_end];
         speed.slope[0] = along(flown.coordinate) + flown.coordinate.slope[by_end] * end.slope[0];
-        m.impacts.push_back({impact.side, end, speed, orbit.next_is_rest(i), impact.event});
+        m.events.push_back({event.side, end, speed, orbit.next_is_rest(i), event.kind});
       }
-      begin = end, before = speed, last = impact;
+      begin = end, before = speed, last = event;
     }
   };
-  with_arcs(scene, add_impacts, m.stiffness_varies);
+  with_arcs(scene, add_events, m.stiffness_varies);
   return m;
 }
 
 double loss_on_soft_stops(const FollowedScene& scene, const Orbit& orbit) {
   Moving m = motion_at(scene, orbit, numbers_of<Along>(scene));
-  for (const OrbitImpact& event : orbit.impacts)
-    m.impacts.push_back({event.side, event.phase, event.before, false, event.event});
+  for (const OrbitEvent& event : orbit.events)
+    m.events.push_back({event.side, event.phase, event.before, false, event.kind});
   return soft_contacts(m).loss.value;
 }
 
 Along impact_speed(const Moving& moving) {
   Along fastest = 0;
-  for (const auto& [side, phase, before, rests, event] : moving.impacts)
-    if (event == EventKind::impact || event == EventKind::touch) fastest = std::max(fastest, abs(before));
+  for (const auto& [side, phase, before, rests, kind] : moving.events)
+    if (is_impact(kind) || kind == Event::Kind::touch) fastest = std::max(fastest, abs(before));
   return fastest;
 }
 
 Along impact_power(const Moving& moving) {
   Along all = 0;
-  for (const auto& [side, phase, before, rests, event] : moving.impacts)
-    if (event == EventKind::impact) all += lost_in_impact(moving.p, side, before, rests);
+  for (const auto& [side, phase, before, rests, kind] : moving.events)
+    if (is_impact(kind)) all += lost_in_impact(moving.p, side, before, rests);
   if (moving.soft) all += soft_contacts(moving).loss;
   return all / moving.period * moving.p.mass;
 }
@@ -129,8 +129,8 @@ Along harmonic(const Moving& moving) {
   const SceneNumbers<Along>& p = moving.p;
   const LeadingForce<Along> force = p.force();
   Along re = force.amplitude * sin(force.lead) / 2, im = -force.amplitude * cos(force.lead) / 2;
-  for (const auto& [side, phase, before, rests, event] : moving.impacts) {
-    if (event != EventKind::impact) continue;
+  for (const auto& [side, phase, before, rests, kind] : moving.events) {
+    if (!is_impact(kind)) continue;
     const Along jump = jump_of_velocity(p, side, before) / moving.period;
     re += jump * cos(phase), im -= jump * sin(phase);
   }

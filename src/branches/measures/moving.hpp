@@ -8,18 +8,19 @@
 
 namespace clatter::branches {
 
-/// A scene's numbers and an orbit's impacts with their derivatives along a branch.
+/// An event of an orbit with its derivatives along a branch.
+struct MovingEvent {
+  Side side;
+  Along phase, coordinate;  ///< as that of `OrbitEvent`
+  bool rests;               ///< the next contact is a rest: this impact and those that follow lose all
+  Event::Kind kind = Event::Kind::impact;
+};
+/// A scene's numbers and an orbit's events with their derivatives along a branch.
 struct Moving {
   FollowedScene scene;
   SceneNumbers<Along> p;
-  struct Impact {
-    Side side;
-    Along phase, before;  ///< the place of a halt instead
-    bool rests;           ///< the next contact is a rest: this impact and those that follow lose all
-    EventKind event = EventKind::impact;
-  };
-  std::vector<Impact> impacts;
-  Along period;               ///< of the impacts as they are kept, in tau
+  std::vector<MovingEvent> events;
+  Along period;               ///< of the events as they are kept, in tau
   Side pressed = Side::none;  ///< of motion without events: the soft stop that it is always in contact with
   bool soft = false;          ///< whether it meets soft stops
   bool stiffness_varies = false;

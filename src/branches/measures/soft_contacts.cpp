@@ -35,24 +35,24 @@ template <Effects E>
 SoftContacts contacts_of(const Moving& moving) {
   const Flights<Along, E> flights(moving.p);
   SoftContacts sum;
-  const std::size_t count = moving.impacts.size();
+  const std::size_t count = moving.events.size();
   if (moving.pressed != Side::none)
     flights.with_response(moving.pressed, [&](const auto& arc, const auto&) {
       add_contact(arc, moving.p.soft_stop(moving.pressed), Along(0), moving.period, sum);
     });
   for (std::size_t i = 0; i < count; ++i) {
-    const Moving::Impact &from = moving.impacts[i], &to = moving.impacts[(i + 1) % count];
-    if (!presses(from.event)) continue;
+    const MovingEvent &from = moving.events[i], &to = moving.events[(i + 1) % count];
+    if (!presses(from.kind)) continue;
     const motion::SoftStop<Along> stop = moving.p.soft_stop(from.side);
     const Along end = i + 1 < count ? to.phase : to.phase + moving.period * moving.p.oscillator.frequency;
-    const Flight<Along> flight{from.side, from.phase, from.before, to.side, end, from.event, to.event};
+    const Flight<Along> flight{from.side, from.phase, from.coordinate, to.side, end, from.kind, to.kind};
     flights.with_arc(flight, [&](const auto& arc) {
       add_contact(arc, stop, from.phase, (end - from.phase) / moving.p.oscillator.frequency, sum);
     });
     // a stop that the mass outruns relaxes as far as it is touched again
-    if (to.event == EventKind::separation) sum.loss += stored(stop, to.before);
-    if (from.event == EventKind::renewal && !presses(moving.impacts[(i + count - 1) % count].event))
-      sum.loss -= stored(stop, from.before);
+    if (to.kind == Event::Kind::separation) sum.loss += stored(stop, to.coordinate);
+    if (from.kind == Event::Kind::renewal && !presses(moving.events[(i + count - 1) % count].kind))
+      sum.loss -= stored(stop, from.coordinate);
   }
   return sum;
 }

@@ -22,7 +22,7 @@ double position_of(const FollowedScene& scene, Side stop) {
 std::size_t begin_of_chatter(const Orbit& orbit, std::size_t rest) {
   std::size_t first = rest;
   while (first > 0) {
-    const OrbitImpact &before = orbit.impacts[first - 1], &after = orbit.impacts[first];
+    const OrbitEvent &before = orbit.events[first - 1], &after = orbit.events[first];
     if (before.side != after.side || before.rest > 0 || std::abs(before.before) < std::abs(after.before)) break;
     --first;
   }
@@ -34,30 +34,30 @@ template <class Function>
 void each_letter(const Orbit& orbit, Function&& function) {
   std::size_t next = 0;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    if (orbit.impacts[i].rest == 0) continue;
+    if (orbit.events[i].rest == 0) continue;
     const std::size_t chatter = std::max(next, begin_of_chatter(orbit, i));
     for (; next < chatter; ++next)
-      if (orbit.impacts[next].event != EventKind::separation) function(orbit.impacts[next]);
-    function(orbit.impacts[i]);
+      if (orbit.events[next].kind != Event::Kind::separation) function(orbit.events[next]);
+    function(orbit.events[i]);
     next = i + 1;
   }
 }
 
 /// The events of a run over whole forcing periods; nothing if it fails.
-std::optional<std::vector<OrbitImpact>> events_of(const point::Problem& start, std::int64_t periods) {
+std::optional<std::vector<OrbitEvent>> events_of(const point::Problem& start, std::int64_t periods) {
   const auto count = static_cast<std::size_t>(periods);
   if (has_soft_stop(start.stops)) {
     auto run = event_run(start, count);
-    return run ? std::optional(std::move(run->impacts)) : std::nullopt;
+    return run ? std::optional(std::move(run->events)) : std::nullopt;
   }
   const auto round = attractors::run_round(start, count);
-  return round ? std::optional(orbit_of(*round, start.oscillator.frequency).impacts) : std::nullopt;
+  return round ? std::optional(orbit_of(*round, start.oscillator.frequency).events) : std::nullopt;
 }
 
 /// Whether a motion has come to rest on a stop and isn't released by then.
 bool is_at_rest(const Orbit& orbit, Side side, double phase) {
   if (orbit.size() == 0) return false;
-  const OrbitImpact& last = orbit.impacts.back();
+  const OrbitEvent& last = orbit.events.back();
   return last.side == side && last.rest > 0 && phase < last.phase + last.rest;
 }
 
@@ -97,19 +97,19 @@ std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std
     const auto events = events_of(start, periods);
     if (!events) return std::nullopt;
     Orbit orbit{{}, static_cast<int>(2 * periods), false};
-    for (OrbitImpact impact : *events) {
-      impact.phase += *release, impact.rest = 0;
-      const bool is_rest = impact.before == 0 && impact.event == EventKind::impact;
-      if (is_rest && is_at_rest(orbit, impact.side, impact.phase)) continue;  // a chatter's end, then the rest
+    for (OrbitEvent event : *events) {
+      event.phase += *release, event.rest = 0;
+      const bool is_rest = event.before == 0 && event.kind == Event::Kind::impact;
+      if (is_rest && is_at_rest(orbit, event.side, event.phase)) continue;  // a chatter's end, then the rest
       if (is_rest) {
-        const std::optional<double> next = release_phase(problem, impact.side);
+        const std::optional<double> next = release_phase(problem, event.side);
         if (!next) return std::nullopt;
-        impact.rest = std::max(*next + turn * std::ceil((impact.phase - *next) / turn) - impact.phase, 0.0);
+        event.rest = std::max(*next + turn * std::ceil((event.phase - *next) / turn) - event.phase, 0.0);
       }
-      if (!is_rest || impact.rest > 1e-12) orbit.impacts.push_back(impact);
+      if (!is_rest || event.rest > 1e-12) orbit.events.push_back(event);
     }
     if (orbit.size() == 0) continue;
-    OrbitImpact& last = orbit.impacts.back();
+    OrbitEvent& last = orbit.events.back();
     const double end = *release + orbit.advance();
     if (last.side == stop && last.rest > 0 && std::abs(last.phase + last.rest - end) < 1e-6) return orbit;
   }
@@ -119,12 +119,12 @@ std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std
 Orbit half_of_resting(const Orbit& orbit, bool symmetric_scene) {
   const int half_turns = orbit.half_turns / 2;
   if (!symmetric_scene || half_turns % 2 == 0) return orbit;
-  const OrbitImpact& last = orbit.impacts.back();
+  const OrbitEvent& last = orbit.events.back();
   const double release = last.phase + last.rest - orbit.advance() / 2;
   for (std::size_t i = 0; i + 1 < orbit.size(); ++i) {
-    const OrbitImpact& rest = orbit.impacts[i];
+    const OrbitEvent& rest = orbit.events[i];
     if (rest.rest > 0 && rest.side != last.side && std::abs(rest.phase + rest.rest - release) < 1e-6)
-      return {{orbit.impacts.begin(), orbit.impacts.begin() + static_cast<std::ptrdiff_t>(i) + 1}, half_turns, true};
+      return {{orbit.events.begin(), orbit.events.begin() + static_cast<std::ptrdiff_t>(i) + 1}, half_turns, true};
   }
   return orbit;
 }
@@ -132,24 +132,24 @@ Orbit half_of_resting(const Orbit& orbit, bool symmetric_scene) {
 std::vector<bool> are_letters(const Orbit& orbit) {
   std::vector<bool> are(orbit.size(), false);
   each_letter(orbit,
-              [&](const OrbitImpact& impact) { are[static_cast<std::size_t>(&impact - orbit.impacts.data())] = true; });
+              [&](const OrbitEvent& event) { are[static_cast<std::size_t>(&event - orbit.events.data())] = true; });
   return are;
 }
 
 std::string letters_of(const Orbit& orbit) {
   std::string letters;
-  each_letter(orbit, [&](const OrbitImpact& impact) {
-    const bool renews = impact.event == EventKind::renewal;
-    letters += impact.side == Side::upper ? (renews ? 'u' : 'U') : (renews ? 'l' : 'L');
-    if (impact.rest > 0) letters += '*';
+  each_letter(orbit, [&](const OrbitEvent& event) {
+    const bool renews = event.kind == Event::Kind::renewal;
+    letters += event.side == Side::upper ? (renews ? 'u' : 'U') : (renews ? 'l' : 'L');
+    if (event.rest > 0) letters += '*';
   });
   return letters;
 }
 
 double slowest_letter(const Orbit& orbit) {
   double slowest = std::numeric_limits<double>::infinity();
-  each_letter(orbit, [&](const OrbitImpact& impact) {
-    if (impact.rest == 0 && impact.is_contact()) slowest = std::min(slowest, std::abs(impact.before));
+  each_letter(orbit, [&](const OrbitEvent& event) {
+    if (event.rest == 0 && event.is_contact()) slowest = std::min(slowest, std::abs(event.before));
   });
   return slowest;
 }

@@ -35,9 +35,9 @@ std::optional<double> middle_of_flight(const point::Problem& problem, std::int64
   const auto run = event_run(problem, static_cast<std::size_t>(periods));
   if (!run) return std::nullopt;
   double begin = 0;
-  for (const OrbitImpact& event : run->impacts) {
+  for (const OrbitEvent& event : run->events) {
     const double end = event.phase / turn;
-    const bool is_contact = event.event == EventKind::separation;
+    const bool is_contact = event.kind == Event::Kind::separation;
     if (end - begin >= shortest && !is_contact) return (begin + end) / 2;
     begin = (event.phase + event.rest) / turn;
   }
@@ -66,7 +66,7 @@ bool is_decided_by_rounding(point::Problem problem, const Orbit& orbit, Side sto
   problem.oscillator.frequency *= 1 + change;
   const auto other = resting_orbit(problem, stop, period);
   if (!other || letters_of(*other) != letters_of(orbit)) return true;
-  return !(std::abs(other->impacts.back().phase - orbit.impacts.back().phase) <= most * change);
+  return !(std::abs(other->events.back().phase - orbit.events.back().phase) <= most * change);
 }
 
 Orbit resting_start(const point::Problem& problem, Side stop, std::int64_t period) {
@@ -89,9 +89,9 @@ Orbit resting_start(const point::Problem& problem, Side stop, std::int64_t perio
 Orbit soft_start(const point::Problem& given, const point::Problem& problem, const MotionStart& near, bool symmetric) {
   auto orbit = event_run(attractors::started(problem, near.state, near.phase), static_cast<std::size_t>(near.periods));
   if (!orbit) throw StartError("the run from the start fails");
-  for (OrbitImpact& event : orbit->impacts) event.phase += near.phase;
-  for (const OrbitImpact& event : orbit->impacts)
-    if (event.event == EventKind::impact && event.before == 0) return resting_start(given, event.side, near.periods);
+  for (OrbitEvent& event : orbit->events) event.phase += near.phase;
+  for (const OrbitEvent& event : orbit->events)
+    if (event.kind == Event::Kind::impact && event.before == 0) return resting_start(given, event.side, near.periods);
   if (orbit->size() == 0 && orbit->pressed == Side::none && problem.oscillator.stiffness == 0)
     throw StartError("without a spring, motion without impacts has no place of its own; begin where it meets a stop");
   return orbit->half_if_same(1e-6, symmetric);
@@ -108,22 +108,22 @@ void require_friction_to_follow(const point::Problem& problem) {
 /// Gives each halt the side that the mass slips to from there: that of the next event.
 void set_sides(const point::Problem& problem, Orbit& orbit) {
   const SceneNumbers<double> p{problem};
-  const auto place = [&](const OrbitImpact& event) {
-    return halts(event.event) ? event.place : p.position(event.side) - p.middle();
+  const auto place = [&](const OrbitEvent& event) {
+    return halts(event.kind) ? event.place : p.position(event.side) - p.middle();
   };
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (halts(orbit.impacts[i].event))
-      orbit.impacts[i].side = place(orbit.impact(i + 1)) > place(orbit.impact(i)) ? Side::upper : Side::lower;
+    if (halts(orbit.events[i].kind))
+      orbit.events[i].side = place(orbit.event(i + 1)) > place(orbit.event(i)) ? Side::upper : Side::lower;
 }
 
 /// A run tells a stick that lasts beyond a forcing period once more from there on, at the same place. If it begins
 /// within one, it ends in it, too: that is one.
-void tell_sticks_once(std::vector<OrbitImpact>& events) {
-  const auto goes_on = [](const OrbitImpact& before, const OrbitImpact& stick) {
-    return before.event == EventKind::stick && stick.event == EventKind::stick && stick.place == before.place;
+void tell_sticks_once(std::vector<OrbitEvent>& events) {
+  const auto goes_on = [](const OrbitEvent& before, const OrbitEvent& stick) {
+    return before.kind == Event::Kind::stick && stick.kind == Event::Kind::stick && stick.place == before.place;
   };
   events.erase(std::unique(events.begin(), events.end(), goes_on), events.end());
-  if (events.size() > 1 && events.front().event == EventKind::stick && events.front().phase == 0)
+  if (events.size() > 1 && events.front().kind == Event::Kind::stick && events.front().phase == 0)
     events.erase(events.begin());
 }
 
@@ -131,18 +131,18 @@ void tell_sticks_once(std::vector<OrbitImpact>& events) {
 Orbit slipping_start(const point::Problem& problem, const MotionStart& near, bool symmetric) {
   auto orbit = event_run(attractors::started(problem, near.state, near.phase), static_cast<std::size_t>(near.periods));
   if (!orbit) throw StartError("the run from the start fails");
-  std::vector<OrbitImpact>& events = orbit->impacts;
-  for (const OrbitImpact& event : events)
-    if (event.event == EventKind::impact && event.before == 0)
+  std::vector<OrbitEvent>& events = orbit->events;
+  for (const OrbitEvent& event : events)
+    if (event.kind == Event::Kind::impact && event.before == 0)
       throw StartError(
           "the motion at the start rests on a stop under dry friction, and no branch of such motion is followed; begin "
           "where it doesn't rest, or sweep the parameter with follow instead");
   tell_sticks_once(events);
-  if (events.empty() || (events.size() == 1 && events[0].event == EventKind::stick))
+  if (events.empty() || (events.size() == 1 && events[0].kind == Event::Kind::stick))
     throw StartError(
         "dry friction holds the mass at the start for good; begin where the force overcomes it, or set x0 and v0 "
         "nearer to a motion");
-  for (OrbitImpact& event : events) event.phase += near.phase, event.rest = 0;
+  for (OrbitEvent& event : events) event.phase += near.phase, event.rest = 0;
   set_sides(problem, *orbit);
   return orbit->half_if_same(1e-6, symmetric);
 }
@@ -295,8 +295,8 @@ Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric
       attractors::run_round(attractors::started(problem, motion->cycle[0], near.phase), motion->cycle.size());
   if (!round) throw StartError("the run from the start fails");
   Orbit orbit = orbit_of(*round, problem.oscillator.frequency, near.phase);
-  for (const OrbitImpact& impact : orbit.impacts)
-    if (impact.before == 0) return resting_start(given, impact.side, near.periods);
+  for (const OrbitEvent& event : orbit.events)
+    if (event.before == 0) return resting_start(given, event.side, near.periods);
   if (orbit.size() == 0 && problem.oscillator.stiffness == 0)
     throw StartError("without a spring, motion without impacts has no place of its own; begin where it meets a stop");
   return orbit.half_if_same(1e-6, symmetric);
@@ -313,10 +313,10 @@ std::optional<Orbit> event_run(const point::Problem& problem, std::size_t period
   Orbit orbit{{}, 2 * static_cast<int>(periods), false};
   const double nu = problem.oscillator.frequency;
   for (const motion::Event& event : recorder.events) {
-    const bool rests = event.kind == EventKind::rest || event.kind == EventKind::chatter;
-    orbit.impacts.push_back({event.side, nu * event.time, event.velocity(), nu * event.length,
-                             rests ? EventKind::impact : event.kind,  // one without speed
-                             halts(event.kind) ? event.place - middle : 0.0});
+    const bool rests = event.kind == Event::Kind::rest || event.kind == Event::Kind::chatter;
+    orbit.events.push_back({event.side, nu * event.time, event.velocity(),
+                            rests ? Event::Kind::impact : event.kind,  // one without speed
+                            nu * event.length, halts(event.kind) ? event.place - middle : 0.0});
   }
   if (orbit.size() == 0)
     for (const Side side : {Side::lower, Side::upper}) {

@@ -6,16 +6,16 @@
 namespace clatter::branches {
 namespace {
 
-/// Gives each impact place and velocity of the main mass before it, which moves alone from impact to impact.
+/// Makes each impact of a run a strike, with the main mass before it, which moves alone from one to the next.
 void add_main_mass(const FollowedScene& scene, const attractors::SectionState& from, double phase, Orbit& orbit) {
   with_arcs_of_main(scene, [&]<Effects E>() {
     const HousingFlights<double, E> flights{numbers_of<double>(scene)};
     const double nu = scene.oscillator.frequency, middle = flights.parameters().middle();
     double place = from.x - middle, v = from.v;
-    for (OrbitImpact& impact : orbit.impacts) {
+    for (OrbitEvent& impact : orbit.events) {
       const motion::Motion<double> m = flights.main_from(phase, place, v).at((impact.phase - phase) / nu);
-      impact.place = m.x - middle, impact.main = m.v;
-      phase = impact.phase, place = impact.place, v = flights.rule().main_after(m.v, impact.before);
+      impact.kind = Event::Kind::strike, impact.main = {m.x - middle, m.v};
+      phase = impact.phase, place = impact.main.place, v = flights.rule().main_after(m.v, impact.before);
     }
   });
 }
@@ -45,7 +45,7 @@ Orbit start_in_housing(const FollowedScene& scene, const point::Problem& problem
     throw StartError(
         "the loose mass meets no wall from the start on: then it stays wherever it is, and no branch of such motion is "
         "followed; set loose_x0 and loose_v0 so that it strikes, or shake harder");
-  for (OrbitImpact& impact : orbit->impacts) {
+  for (OrbitEvent& impact : orbit->events) {
     if (impact.before == 0)
       throw StartError(
           "a wall presses the loose mass in the motion at the start, and no branch of such motion is followed; begin "

@@ -11,7 +11,7 @@ Orbit at_rest(const FollowedScene& scene, Orbit orbit) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
   const Orbit slipping = orbit;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    OrbitImpact& stick = orbit.impacts[i];
+    OrbitEvent& stick = orbit.events[i];
     stick.phase = crest_near(p, slipping.heading_before(i), stick.phase);
     if (p.oscillator.stiffness != 0) stick.place = 0;
   }

@@ -16,35 +16,34 @@ std::optional<ExactGraze> solved(const Equations& equations, const FollowedScene
   const Vector guess = there.unknowns_of(near, graze.orbit);
   const auto exact = solution(there, guess, tolerance);
   if (!exact || std::abs(exact->back() - guess.back()) > within) return std::nullopt;
-  ExactGraze at{there.scene_at(*exact), there.orbit_at(*exact), graze.impact};
-  OrbitImpact& impact = at.orbit.impacts[graze.impact];
-  if (impact.event != EventKind::impact && graze.condition.kind == Condition::Kind::graze) impact.before = 0;
+  ExactGraze at{there.scene_at(*exact), there.orbit_at(*exact), graze.event};
+  OrbitEvent& event = at.orbit.events[graze.event];
+  if (!is_impact(event.kind) && graze.condition.kind == Condition::Kind::graze) event.before = 0;
   return at;
 }
 
 /// Several grazes at once as the one of a motion that repeats sooner, or is symmetric, or touches both stops.
 Graze once_of(Graze graze, double slow, bool symmetric_scene) {
-  const EventKind grazes = graze.orbit.impacts[graze.impact].event;
-  if (graze.condition.kind != Condition::Kind::graze ||
-      (grazes != EventKind::separation && grazes != EventKind::impact))
+  const Event::Kind grazes = graze.orbit.events[graze.event].kind;
+  if (graze.condition.kind != Condition::Kind::graze || (grazes != Event::Kind::separation && !is_impact(grazes)))
     return graze;
   for (std::size_t i = graze.orbit.size(); i-- > 0;) {
     const std::size_t next = (i + 1) % graze.orbit.size();
-    const EventKind event = graze.orbit.impacts[i].event;
-    const bool is_contact = event == EventKind::touch && next != graze.impact;
-    if (i == graze.impact || !(is_contact || event == EventKind::impact)) continue;
-    if (std::abs(graze.orbit.impacts[i].before) > slow) continue;
+    const Event::Kind kind = graze.orbit.events[i].kind;
+    const bool is_contact = kind == Event::Kind::touch && next != graze.event;
+    if (i == graze.event || !(is_contact || is_impact(kind))) continue;
+    if (std::abs(graze.orbit.events[i].before) > slow) continue;
     for (const std::size_t each : is_contact ? std::vector{std::max(i, next), std::min(i, next)} : std::vector{i}) {
-      graze.orbit.impacts.erase(graze.orbit.impacts.begin() + static_cast<std::ptrdiff_t>(each));
-      graze.impact -= each < graze.impact;
+      graze.orbit.events.erase(graze.orbit.events.begin() + static_cast<std::ptrdiff_t>(each));
+      graze.event -= each < graze.event;
     }
   }
-  graze.orbit.impacts[graze.impact].before = 0;
-  graze.orbit = graze.orbit.once_with_graze(graze.impact, symmetric_scene);
+  graze.orbit.events[graze.event].before = 0;
+  graze.orbit = graze.orbit.once_with_graze(graze.event, symmetric_scene);
   const auto at = std::ranges::find_if(
-      graze.orbit.impacts, [&](const OrbitImpact& impact) { return impact.event == grazes && impact.before == 0; });
-  graze.impact = static_cast<std::size_t>(at - graze.orbit.impacts.begin());
-  graze.condition.impact = graze.impact;
+      graze.orbit.events, [&](const OrbitEvent& event) { return event.kind == grazes && event.before == 0; });
+  graze.event = static_cast<std::size_t>(at - graze.orbit.events.begin());
+  graze.condition.event = graze.event;
   return graze;
 }
 
@@ -85,8 +84,8 @@ std::optional<Vector> direction_into_motion(const OrbitEquations& equations, con
 }
 
 Orbit turned(Orbit orbit, std::size_t event) {
-  EventKind& kind = orbit.impacts[event].event;
-  kind = kind == EventKind::touch ? EventKind::renewal : EventKind::touch;
+  Event::Kind& kind = orbit.events[event].kind;
+  kind = kind == Event::Kind::touch ? Event::Kind::renewal : Event::Kind::touch;
   return orbit;
 }
 

@@ -12,7 +12,7 @@ namespace clatter::branches {
 /// A motion with an event that grazes by a condition.
 struct Graze {
   Orbit orbit;
-  std::size_t impact = 0;
+  std::size_t event = 0;
   Condition condition;
 };
 
@@ -23,7 +23,7 @@ using Equations = std::function<OrbitEquations(const Orbit&, std::vector<Conditi
 struct ExactGraze {
   FollowedScene scene;
   Orbit orbit;
-  std::size_t impact = 0;
+  std::size_t event = 0;
   bool joins =
       false;  ///< several grazes of soft stops at once are one of a motion that repeats sooner, or is symmetric
 };

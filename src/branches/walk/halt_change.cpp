@@ -15,7 +15,7 @@ namespace {
 using Kind = Condition::Kind;
 
 Condition level(Kind kind, std::size_t halt, Side side) {
-  return {.kind = kind, .impact = halt, .without = {}, .side = side};
+  return {.kind = kind, .event = halt, .without = {}, .side = side};
 }
 
 /// Calls `function(flights)` with the flights of a scene.
@@ -27,17 +27,17 @@ double of_flights(const FollowedScene& scene, Function&& function) {
   });
 }
 /// How long friction holds a mass where it halts against a push to its side, rad.
-double held(const FollowedScene& scene, const OrbitImpact& halt) {
+double held(const FollowedScene& scene, const OrbitEvent& halt) {
   return of_flights(scene, [&](const auto& flights) { return flights.hold(halt.place, halt.phase, halt.side); });
 }
 /// Whether it does at the instant at which the mass halts.
-bool holds(const FollowedScene& scene, const OrbitImpact& halt, Side side) {
+bool holds(const FollowedScene& scene, const OrbitEvent& halt, Side side) {
   return of_flights(scene, [&](const auto& flights) { return flights.left_to_level(halt.place, halt.phase, side); }) >=
          0;
 }
 
 /// Whether the force that pushes a halting mass to its side rises.
-bool push_rises(const FollowedScene& scene, const OrbitImpact& halt) {
+bool push_rises(const FollowedScene& scene, const OrbitEvent& halt) {
   const LeadingForce<double> force = numbers_of<double>(scene).force();
   return sign_of(halt.side) * force.amplitude * std::cos(halt.phase + force.lead) > 0;
 }
@@ -48,9 +48,9 @@ bool motion_jumps(const FollowedScene& scene) { return scene.friction.static_lev
 /// The velocity falls to 0 in a slip, which goes on at once: beyond, after a stick. If that is a long one, as the
 /// static level is above the kinetic one, the slip goes on here as from a reversal to where it was going.
 HaltChange grazing(const Orbit& orbit, const FollowedScene& scene, const Violation& found, bool jumps) {
-  const std::size_t halt = found.impact + 1;
-  OrbitImpact pause = found.turning;
-  pause.event = EventKind::reversal;
+  const std::size_t halt = found.event + 1;
+  OrbitEvent pause = found.turning;
+  pause.kind = Event::Kind::reversal;
   HaltChange change{SpecialKind::grazing_sliding, jumps ? orbit.with(pause, halt) : with_halts(scene, orbit),
                     level(jumps ? Kind::kinetic : Kind::level, halt, found.turning.side), HaltForm::none};
   if (!jumps) change.beyond = HaltForm::stick;
@@ -60,22 +60,22 @@ HaltChange grazing(const Orbit& orbit, const FollowedScene& scene, const Violati
 /// An event of an orbit and the stick after it as one stick.
 Orbit merged(const Orbit& orbit, std::size_t event = 0) {
   Orbit one = orbit.without(event);
-  one.impacts[event].phase = orbit.impacts[event].phase;
+  one.events[event].phase = orbit.events[event].phase;
   return one;
 }
 
 /// The length, rad, of the slip from an event to a stick; infinite if it can't vanish. One that a push at a static
 /// level above the kinetic one begins can't, however short it is.
-double length_of_slip(const FollowedScene& scene, const OrbitImpact& from, const OrbitImpact& to) {
-  if (to.event != EventKind::stick || (halts(from.event) && motion_jumps(scene)))
+double length_of_slip(const FollowedScene& scene, const OrbitEvent& from, const OrbitEvent& to) {
+  if (to.kind != Event::Kind::stick || (halts(from.kind) && motion_jumps(scene)))
     return std::numeric_limits<double>::infinity();
-  return to.phase - from.phase - (from.event == EventKind::stick ? held(scene, from) : 0.0);
+  return to.phase - from.phase - (from.kind == Event::Kind::stick ? held(scene, from) : 0.0);
 }
 
 /// A reversal comes to be a stick: a short one, or one that begins as the slip after it has become no more, or at once.
 HaltChange sticking(const Orbit& orbit, const FollowedScene& scene, std::size_t i, bool jumps) {
-  const OrbitImpact& halt = orbit.impacts[i];
-  HaltChange change{SpecialKind::crossing_sliding, orbit.with_event(i, EventKind::stick),
+  const OrbitEvent& halt = orbit.events[i];
+  HaltChange change{SpecialKind::crossing_sliding, orbit.with_kind(i, Event::Kind::stick),
                     level(Kind::level, i, halt.side), HaltForm::reversal, HaltForm::stick};
   if (push_rises(scene, halt)) return change;
   change.kind = SpecialKind::switching_sliding;
@@ -84,14 +84,14 @@ HaltChange sticking(const Orbit& orbit, const FollowedScene& scene, std::size_t 
     return change;
   }
   change.before.reset();
-  if (orbit.impact(i + 1).event == EventKind::stick)
-    change.orbit = merged(orbit.from_event(i)), change.condition.impact = 0;
+  if (orbit.event(i + 1).kind == Event::Kind::stick)
+    change.orbit = merged(orbit.from_event(i)), change.condition.event = 0;
   return change;
 }
 
 /// A slip to a stick comes as far as a stop: beyond, the mass strikes that.
 std::optional<HaltChange> reaching(const Orbit& orbit, std::size_t halt) {
-  if (orbit.impacts[halt].event != EventKind::stick) return std::nullopt;
+  if (orbit.events[halt].kind != Event::Kind::stick) return std::nullopt;
   HaltChange change{SpecialKind::graze, orbit, level(Kind::on_stop, halt, orbit.heading_before(halt)), HaltForm::stick};
   change.opens = Opening::Kind::rebound;
   return change;
@@ -100,7 +100,7 @@ std::optional<HaltChange> reaching(const Orbit& orbit, std::size_t halt) {
 /// A stick has become no more, or the other way is open sooner. What is open where the push falls, or touches the level
 /// at its crest, is so for a short slip, from nothing; with a static level above the kinetic one for a long one.
 HaltChange slipping(const Orbit& orbit, const FollowedScene& scene, std::size_t i, bool jumps) {
-  const OrbitImpact& halt = orbit.impacts[i];
+  const OrbitEvent& halt = orbit.events[i];
   const Side other = opposite(halt.side);
   const bool held = holds(scene, halt, halt.side);
   HaltChange change{SpecialKind::switching_sliding, orbit, level(Kind::level, i, halt.side), HaltForm::stick};
@@ -126,17 +126,17 @@ HaltChange slipping(const Orbit& orbit, const FollowedScene& scene, std::size_t 
 
 Orbit formed(const FollowedScene& scene, const Orbit& orbit, std::size_t halt, HaltForm form) {
   constexpr double at_once = 1e-6;  // rad
-  const bool goes_on = orbit.heading_before(halt) == orbit.impacts[halt].side;
+  const bool goes_on = orbit.heading_before(halt) == orbit.events[halt].side;
   Orbit out = orbit;
   for (std::size_t i = orbit.size(); i-- > 0;) {
-    const OrbitImpact& other = orbit.impacts[i];
-    const bool alike = halts(other.event) && (orbit.heading_before(i) == other.side) == goes_on &&
+    const OrbitEvent& other = orbit.events[i];
+    const bool alike = halts(other.kind) && (orbit.heading_before(i) == other.side) == goes_on &&
                        std::abs(held(scene, other)) <= at_once;
     if (i != halt && !alike) continue;
     if (form == HaltForm::none)
       out = out.without(i);
     else
-      out.impacts[i].event = form == HaltForm::stick ? EventKind::stick : EventKind::reversal;
+      out.events[i].kind = form == HaltForm::stick ? Event::Kind::stick : Event::Kind::reversal;
   }
   return out;
 }
@@ -149,14 +149,13 @@ Orbit first_of_odd(const Orbit& orbit, double tolerance) {
     const std::size_t size = orbit.size() / static_cast<std::size_t>(parts);
     if (orbit.mirrored || orbit.size() % static_cast<std::size_t>(parts) != 0 || orbit.half_turns % (2 * parts) != 0)
       continue;
-    const Orbit one{{orbit.impacts.begin(), orbit.impacts.begin() + static_cast<std::ptrdiff_t>(size)},
+    const Orbit one{{orbit.events.begin(), orbit.events.begin() + static_cast<std::ptrdiff_t>(size)},
                     orbit.half_turns / parts};
     const Orbit all = one.repeated(parts);
-    const bool repeats =
-        std::ranges::equal(all.impacts, orbit.impacts, [&](const OrbitImpact& a, const OrbitImpact& b) {
-          return a.side == b.side && a.event == b.event && std::abs(a.phase - b.phase) <= tolerance &&
-                 std::abs(a.coordinate() - b.coordinate()) <= tolerance * (std::abs(a.coordinate()) + tolerance);
-        });
+    const bool repeats = std::ranges::equal(all.events, orbit.events, [&](const OrbitEvent& a, const OrbitEvent& b) {
+      return a.side == b.side && a.kind == b.kind && std::abs(a.phase - b.phase) <= tolerance &&
+             std::abs(a.coordinate() - b.coordinate()) <= tolerance * (std::abs(a.coordinate()) + tolerance);
+    });
     if (repeats) return first_of_odd(one, tolerance);
   }
   return orbit;
@@ -166,7 +165,7 @@ Orbit first_of_odd(const Orbit& orbit, double tolerance) {
 bool may_be_mirrored(const FollowedScene& scene, const Orbit& orbit, const Condition& condition) {
   if (is_symmetric(scene)) return true;
   return condition.kind != Kind::on_stop && scene.oscillator.stiffness != 0 &&
-         std::ranges::all_of(orbit.impacts, halts, &OrbitImpact::event);
+         std::ranges::all_of(orbit.events, halts, &OrbitEvent::kind);
 }
 
 /// A change that comes to the motion in each of its repetitions, or also in its mirror image, as that of the first one:
@@ -175,9 +174,9 @@ HaltChange once_of(HaltChange change, const FollowedScene& scene) {
   constexpr double same = 1e-4;
   const Orbit first = first_of_odd(change.orbit, same),
               once = first.half_if_same(same, may_be_mirrored(scene, first, change.condition));
-  const std::size_t repetition = change.condition.impact / once.size();
+  const std::size_t repetition = change.condition.event / once.size();
   if (once.mirrored && repetition % 2 == 1) change.condition.side = opposite(change.condition.side);
-  change.condition.impact %= once.size();
+  change.condition.event %= once.size();
   change.orbit = once;
   return change;
 }
@@ -187,23 +186,23 @@ HaltChange once_of(HaltChange change, const FollowedScene& scene) {
 void join(ExactGraze& exact, const HaltChange& change) {
   constexpr double same = 1e-6;
   const bool symmetric = may_be_mirrored(exact.scene, exact.orbit, change.condition);
-  const OrbitImpact& halt = exact.orbit.impacts[exact.impact];
+  const OrbitEvent& halt = exact.orbit.events[exact.event];
   Orbit once;
-  if (exact.orbit.heading_before(exact.impact) != halt.side) {
-    once = formed(exact.scene, exact.orbit, exact.impact, HaltForm::stick).half_if_same(same, symmetric);
+  if (exact.orbit.heading_before(exact.event) != halt.side) {
+    once = formed(exact.scene, exact.orbit, exact.event, HaltForm::stick).half_if_same(same, symmetric);
   } else {
-    const Orbit without = formed(exact.scene, exact.orbit, exact.impact, HaltForm::none);
-    const auto later = std::ranges::upper_bound(without.impacts, halt.phase, {}, &OrbitImpact::phase);
-    const auto number = static_cast<std::size_t>(later - without.impacts.begin());
+    const Orbit without = formed(exact.scene, exact.orbit, exact.event, HaltForm::none);
+    const auto later = std::ranges::upper_bound(without.events, halt.phase, {}, &OrbitEvent::phase);
+    const auto number = static_cast<std::size_t>(later - without.events.begin());
     once = without.with(halt, number).once_with_graze(number, symmetric);
   }
   if (once.half_turns == exact.orbit.half_turns) return;
-  const auto place = std::ranges::find_if(once.impacts, [&](const OrbitImpact& event) {
+  const auto place = std::ranges::find_if(once.events, [&](const OrbitEvent& event) {
     const double turns = (event.phase - halt.phase) / once.advance();
-    return halts(event.event) && std::abs(turns - std::round(turns)) * once.advance() <= same;
+    return halts(event.kind) && std::abs(turns - std::round(turns)) * once.advance() <= same;
   });
-  if (place == once.impacts.end()) return;
-  exact = {exact.scene, once, static_cast<std::size_t>(place - once.impacts.begin()), true};
+  if (place == once.events.end()) return;
+  exact = {exact.scene, once, static_cast<std::size_t>(place - once.events.begin()), true};
 }
 
 std::optional<ExactGraze> solved(const OrbitEquations& there, const FollowedScene& near, const HaltChange& change,
@@ -211,7 +210,7 @@ std::optional<ExactGraze> solved(const OrbitEquations& there, const FollowedScen
   const Vector guess = there.unknowns_of(near, change.orbit);
   const auto exact = solution(there, guess, tolerance);
   if (!exact || std::abs(exact->back() - guess.back()) > within) return std::nullopt;
-  ExactGraze found{there.scene_at(*exact), there.orbit_at(*exact), change.condition.impact};
+  ExactGraze found{there.scene_at(*exact), there.orbit_at(*exact), change.condition.event};
   if (change.before) join(found, change);
   return found;
 }
@@ -240,7 +239,7 @@ namespace {
 Orbit without_short_slips(const FollowedScene& scene, Orbit orbit, double length) {
   constexpr double about_to_vanish = 1e-3;  // rad
   for (std::size_t i = orbit.size() - 1; i-- > 1;)
-    if (length_of_slip(scene, orbit.impacts[i], orbit.impacts[i + 1]) < std::max(about_to_vanish, length))
+    if (length_of_slip(scene, orbit.events[i], orbit.events[i + 1]) < std::max(about_to_vanish, length))
       orbit = merged(orbit, i);
   return orbit;
 }
@@ -252,15 +251,15 @@ std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const 
   const FollowedScene scene = equations.scene_at(at.at);
   const Orbit orbit = equations.orbit_at(at.at);
   if (orbit.size() < 2) return std::nullopt;
-  const auto length = [&](std::size_t i) { return length_of_slip(scene, orbit.impact(i), orbit.impact(i + 1)); };
+  const auto length = [&](std::size_t i) { return length_of_slip(scene, orbit.event(i), orbit.event(i + 1)); };
   std::size_t first = 0;
   for (std::size_t i = 1; i < orbit.size(); ++i) first = length(i) < length(first) ? i : first;
   if (!(length(first) < about_to_vanish)) return std::nullopt;
-  const OrbitImpact& from = orbit.impacts[first];
+  const OrbitEvent& from = orbit.events[first];
   const Orbit one = without_short_slips(scene, merged(orbit.from_event(first)), 2 * std::max(length(first), 0.0));
-  if (from.event == EventKind::impact)
+  if (from.kind == Event::Kind::impact)
     return HaltChange{SpecialKind::graze, one, level(Kind::on_stop, 0, from.side), {}, HaltForm::stick};
-  if (from.event == EventKind::stick)
+  if (from.kind == Event::Kind::stick)
     return HaltChange{SpecialKind::release_tangency, one, level(Kind::tangency, 0, from.side), {}, HaltForm::stick};
   return HaltChange{SpecialKind::switching_sliding, one, level(Kind::level, 0, from.side), {}, HaltForm::stick};
 }
@@ -271,7 +270,7 @@ namespace {
 std::optional<HaltChange> of_violation(const OrbitEquations& equations, const CurvePoint& at, const Violation& found) {
   const FollowedScene scene = equations.scene_at(at.at);
   const Orbit orbit = equations.orbit_at(at.at);
-  const std::size_t i = found.impact;
+  const std::size_t i = found.event;
   const bool jumps = motion_jumps(scene);
   switch (found.kind) {
     case Violation::Kind::passes_through:
@@ -286,7 +285,7 @@ std::optional<HaltChange> of_violation(const OrbitEquations& equations, const Cu
     case Violation::Kind::slips:
       return slipping(orbit, scene, i, jumps);
     case Violation::Kind::stays:
-      return HaltChange{SpecialKind::release_tangency, orbit, level(Kind::tangency, i, orbit.impacts[i].side),
+      return HaltChange{SpecialKind::release_tangency, orbit, level(Kind::tangency, i, orbit.events[i].side),
                         HaltForm::stick};
     default:
       return std::nullopt;
@@ -299,8 +298,8 @@ void add_releases_at_crest(const OrbitEquations& equations, const CurvePoint& at
   const FollowedScene scene = equations.scene_at(at.at);
   const Orbit orbit = equations.orbit_at(at.at);
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    const OrbitImpact& stick = orbit.impacts[i];
-    if (stick.event != EventKind::stick) continue;
+    const OrbitEvent& stick = orbit.events[i];
+    if (stick.kind != Event::Kind::stick) continue;
     const double before = of_flights(scene, [&](const auto& flights) {
       return flights.hold_to_crest(stick.phase, stick.side) - flights.hold(stick.place, stick.phase, stick.side);
     });
@@ -312,12 +311,12 @@ void add_releases_at_crest(const OrbitEquations& equations, const CurvePoint& at
 }  // namespace
 
 bool jumps_to_stick(const FollowedScene& scene, const Orbit& orbit, std::size_t reversal) {
-  const OrbitImpact& halt = orbit.impacts[reversal];
+  const OrbitEvent& halt = orbit.events[reversal];
   return motion_jumps(scene) && holds(scene, halt, halt.side);
 }
 
 bool slips_on_from_stop(const FollowedScene& scene, const Orbit& orbit, std::size_t stick) {
-  const OrbitImpact& halt = orbit.impacts[stick];
+  const OrbitEvent& halt = orbit.events[stick];
   const Side away = opposite(orbit.heading_before(stick));
   return sign_of(away) *
              of_flights(scene,
@@ -331,7 +330,7 @@ std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narr
   const FollowedScene scene = equations.scene_at(found.last_good.at);
   const Orbit orbit = equations.orbit_at(found.last_good.at);
   if (hardly_slips(scene, orbit, about_to_cease))
-    return {{SpecialKind::motion_ceases, orbit, level(Kind::tangency, 0, orbit.impacts[0].side)}};
+    return {{SpecialKind::motion_ceases, orbit, level(Kind::tangency, 0, orbit.events[0].side)}};
   std::vector<HaltChange> changes;
   // as a slip vanishes, which violation is found is up to rounding, and its equations may hold there, too
   if (const auto change = vanishing_slip(equations, found.last_good)) changes.push_back(*change);

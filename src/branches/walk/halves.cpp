@@ -12,13 +12,13 @@ std::optional<Orbit> first_half(const Orbit& orbit, bool symmetric_scene) {
   const std::size_t size = orbit.size() / 2;
   if (size == 0 || orbit.size() % 2 != 0 || orbit.mirrored || orbit.half_turns % 2 != 0) return std::nullopt;
   const int half_turns = orbit.half_turns / 2;
-  Orbit half{{orbit.impacts.begin(), orbit.impacts.begin() + static_cast<std::ptrdiff_t>(size)},
+  Orbit half{{orbit.events.begin(), orbit.events.begin() + static_cast<std::ptrdiff_t>(size)},
              half_turns,
              half_turns % 2 != 0};
   if (half.mirrored && !symmetric_scene) return std::nullopt;
   for (std::size_t i = 0; i < size; ++i) {
-    const OrbitImpact one = half.impact(size + i), &other = orbit.impacts[size + i];
-    if (one.event != other.event || one.side != other.side) return std::nullopt;
+    const OrbitEvent one = half.event(size + i), &other = orbit.events[size + i];
+    if (one.kind != other.kind || one.side != other.side) return std::nullopt;
   }
   return half;
 }
@@ -28,9 +28,10 @@ std::optional<Orbit> first_half(const Orbit& orbit, bool symmetric_scene) {
 Vector first_less_second(const Orbit& orbit, const Orbit& half, double speed_unit) {
   Vector off;
   for (std::size_t i = half.size(); i < orbit.size(); ++i) {
-    const OrbitImpact one = half.impact(i), &other = orbit.impacts[i];
+    const OrbitEvent one = half.event(i), &other = orbit.events[i];
     off.insert(off.end(), {one.phase - other.phase, (one.before - other.before) / speed_unit,
-                           (one.place - other.place) / speed_unit, (one.main - other.main) / speed_unit});
+                           (one.place - other.place) / speed_unit, (one.main.place - other.main.place) / speed_unit,
+                           (one.main.before - other.main.before) / speed_unit});
   }
   return off;
 }
@@ -39,13 +40,14 @@ Vector first_less_second(const Orbit& orbit, const Orbit& half, double speed_uni
 Orbit middle_of(Orbit half, const Orbit& orbit) {
   const Orbit first = half;
   for (std::size_t i = 0; i < half.size(); ++i) {
-    const OrbitImpact one = first.impact(half.size() + i), &other = orbit.impacts[half.size() + i];
+    const OrbitEvent one = first.event(half.size() + i), &other = orbit.events[half.size() + i];
     const double sign = half.mirrored ? -1 : 1;
-    OrbitImpact& event = half.impacts[i];
+    OrbitEvent& event = half.events[i];
     event.phase += (other.phase - one.phase) / 2;
     event.before += sign * (other.before - one.before) / 2;
     event.place += sign * (other.place - one.place) / 2;
-    event.main += sign * (other.main - one.main) / 2;
+    event.main.place += sign * (other.main.place - one.main.place) / 2;
+    event.main.before += sign * (other.main.before - one.main.before) / 2;
   }
   return half;
 }
@@ -82,7 +84,7 @@ std::optional<Orbit> half_of_free_slips(const FollowedScene& scene, const Orbit&
   constexpr double same = 1e-6;
   const Orbit half = orbit.half_if_same(same, scene.oscillator.stiffness != 0);
   if (orbit.mirrored || !half.mirrored || 2 * half.size() != orbit.size()) return std::nullopt;
-  if (half.size() == 0 || !std::ranges::all_of(half.impacts, halts, &OrbitImpact::event)) return std::nullopt;
+  if (half.size() == 0 || !std::ranges::all_of(half.events, halts, &OrbitEvent::kind)) return std::nullopt;
   return half;
 }
 

@@ -16,7 +16,7 @@ namespace {
 using Kind = Opening::Kind;
 
 /// Acceleration at an event, that of the free motion.
-double acceleration(const SceneNumbers<double>& p, const OrbitImpact& event, double offset) {
+double acceleration(const SceneNumbers<double>& p, const OrbitEvent& event, double offset) {
   const LeadingForce<double> force = p.force();
   return force.amplitude * std::sin(event.phase + force.lead) + p.oscillator.load -
          2 * p.oscillator.damping * event.before - p.oscillator.stiffness * (p.position(event.side) + offset);
@@ -26,23 +26,23 @@ double acceleration(const SceneNumbers<double>& p, const OrbitImpact& event, dou
 /// there.
 Orbit with_short(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, double advance) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
-  const OrbitImpact middle = orbit.impacts[graze];
+  const OrbitEvent middle = orbit.events[graze];
   const double relaxation = p.soft_stop(middle.side).relaxation(), time = advance / p.oscillator.frequency;
-  OrbitImpact begin = middle, end = middle;
+  OrbitEvent begin = middle, end = middle;
   const double a = acceleration(p, middle, -relaxation * middle.before);
   double before = time / 2;  // from the beginning to the extremum
-  if (middle.event == EventKind::separation && middle.before == 0) {
+  if (middle.kind == Event::Kind::separation && middle.before == 0) {
     // v t + a t^2/2 + r (v + a t) = 0, the end of a contact that begins with v: the mass turns after the time -v/a
     before = time * (time / 2 + relaxation) / (time + relaxation);
-    begin.event = EventKind::touch;
+    begin.kind = Event::Kind::touch;
   } else {
-    begin.event = middle.event == EventKind::separation ? EventKind::renewal : EventKind::separation;
-    if (relaxation == 0 && presses(middle.event)) end.event = EventKind::touch;
+    begin.kind = middle.kind == Event::Kind::separation ? Event::Kind::renewal : Event::Kind::separation;
+    if (relaxation == 0 && presses(middle.kind)) end.kind = Event::Kind::touch;
   }
   begin.phase = middle.phase - p.oscillator.frequency * before, begin.before = middle.before - a * before;
   end.phase = begin.phase + advance, end.before = begin.before + a * time;
   Orbit out = orbit;
-  out.impacts[graze] = end;
+  out.events[graze] = end;
   return out.with(begin, graze);
 }
 
@@ -50,15 +50,15 @@ Orbit with_short(const FollowedScene& scene, const Orbit& orbit, std::size_t gra
 Orbit with_rebound(const FollowedScene& scene, const Orbit& orbit, std::size_t stick, double advance) {
   const Side stop = orbit.heading_before(stick);
   const SceneNumbers<double> p = numbers_of<double>(scene);
-  OrbitImpact impact{stop, orbit.impacts[stick].phase}, halt = orbit.impacts[stick];
+  OrbitEvent event{stop, orbit.events[stick].phase}, halt = orbit.events[stick];
   const double a = with_arcs(
       scene, [&]<Effects E>() { return Flights<double, E>{p}.acceleration(halt.place, halt.phase, opposite(stop)); });
   const double time = advance / p.oscillator.frequency;
-  impact.before = a * time / p.restitution(stop);
+  event.before = a * time / p.restitution(stop);
   halt.phase += advance, halt.place -= a * time * time / 2;
   Orbit out = orbit;
-  out.impacts[stick] = halt;
-  return out.with(impact, stick);
+  out.events[stick] = halt;
+  return out.with(event, stick);
 }
 
 /// An orbit with a stick as if the mass turned there, and slipped back for `advance` of the phase: the push back falls
@@ -66,8 +66,8 @@ Orbit with_rebound(const FollowedScene& scene, const Orbit& orbit, std::size_t s
 /// the mass by c t^3/12.
 Orbit with_turn(const FollowedScene& scene, const Orbit& orbit, std::size_t stick, double advance) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
-  OrbitImpact turn = orbit.impacts[stick], halt = turn;
-  turn.event = EventKind::reversal, turn.side = opposite(orbit.heading_before(stick));
+  OrbitEvent turn = orbit.events[stick], halt = turn;
+  turn.kind = Event::Kind::reversal, turn.side = opposite(orbit.heading_before(stick));
   const double f = std::abs(p.force().amplitude), nu = p.oscillator.frequency, sign = sign_of(turn.side);
   const double needed = p.friction.static_level -
                         sign * (p.oscillator.load - p.oscillator.stiffness * (p.middle() + turn.place)),
@@ -76,7 +76,7 @@ Orbit with_turn(const FollowedScene& scene, const Orbit& orbit, std::size_t stic
   turn.phase = at_level - advance / 2, halt.phase = at_level + advance / 2;
   halt.place += sign * c * std::pow(advance / nu, 3) / 12;
   Orbit out = orbit;
-  out.impacts[stick] = halt;
+  out.events[stick] = halt;
   return out.with(turn, stick);
 }
 
@@ -86,7 +86,7 @@ Orbit with_turn(const FollowedScene& scene, const Orbit& orbit, std::size_t stic
 Orbit with_release(const FollowedScene& scene, const Orbit& orbit, std::size_t stick, double advance) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
   const double f = std::abs(p.force().amplitude), r = advance / 3;
-  OrbitImpact held = orbit.impacts[stick], halt = held;
+  OrbitEvent held = orbit.events[stick], halt = held;
   held.side = opposite(halt.side);
   const double crest = crest_near(p, held.side, held.phase);
   halt.phase = (crest < held.phase ? crest + 2 * std::numbers::pi : crest) + 2 * r;
@@ -94,7 +94,7 @@ Orbit with_release(const FollowedScene& scene, const Orbit& orbit, std::size_t s
   if (k != 0) held.place = sign * (f * (1 - r * r / 2) - p.friction.static_level) / k;
   halt.place = held.place + sign * 9 / 8.0 * f * std::pow(r, 4) / std::pow(p.oscillator.frequency, 2);
   Orbit out = orbit;
-  out.impacts[stick] = halt;
+  out.events[stick] = halt;
   return out.with(held, stick);
 }
 
@@ -120,10 +120,10 @@ namespace {
 /// that isn't, and then it comes to both halves at once.
 std::optional<Opening> another(Kind kind, const Violation& found) {
   if (kind == Kind::contact && found.kind == Violation::Kind::passes_through &&
-      found.turning.event != EventKind::impact)
-    return Opening{kind, found.impact + 1};
+      found.turning.kind != Event::Kind::impact)
+    return Opening{kind, found.event + 1};
   if ((kind == Kind::turn || kind == Kind::release) && found.kind == Violation::Kind::slips)
-    return Opening{kind, found.impact};
+    return Opening{kind, found.event};
   return std::nullopt;
 }
 
@@ -140,10 +140,10 @@ std::optional<Lasting> with_lasting(const Equations& equations, const FollowedSc
   for (int times = 1; times <= 2; ++times) {
     // the stick before an early release lasts on to the crest, beside which the slip ends
     const double lasts = opening.kind == Kind::release
-                             ? lasting.orbit.impact(lasting.first + 1).phase - lasting.orbit.impact(lasting.first).phase
+                             ? lasting.orbit.event(lasting.first + 1).phase - lasting.orbit.event(lasting.first).phase
                              : advance;
     const OrbitEquations there =
-        equations(lasting.orbit, {{.kind = Condition::Kind::duration, .impact = lasting.first, .duration = lasts}});
+        equations(lasting.orbit, {{.kind = Condition::Kind::duration, .event = lasting.first, .duration = lasts}});
     auto at = solution(there, there.unknowns_of(scene, lasting.orbit), tolerance);
     if (!at) return std::nullopt;
     const auto violated = violation(there, *at);
@@ -163,8 +163,8 @@ std::optional<Lasting> with_lasting(const Equations& equations, const FollowedSc
 std::optional<Opened> opened_once(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
                                   const Opening& opening, double tolerance) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
-  const OrbitImpact& event = orbit.impacts[opening.event];
-  const double of_stop = halts(event.event) ? 0.0 : p.soft_stop(event.side).stiffness;
+  const OrbitEvent& event = orbit.events[opening.event];
+  const double of_stop = halts(event.kind) ? 0.0 : p.soft_stop(event.side).stiffness;
   const double rate = std::max(p.oscillator.frequency, std::sqrt(std::abs(p.oscillator.stiffness) + of_stop));
   for (const double turned_by : {1e-3, 1e-2, 1e-4, 1e-5, 1e-6, 1e-7}) {
     const auto lasting =

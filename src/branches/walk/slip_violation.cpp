@@ -17,7 +17,7 @@ template <Effects E>
 bool slips_for_less(const Flights<double, E>& flights, const Orbit& orbit, double less_than) {
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const Flight<double> flight = detail::flight_of<double>(orbit, i);
-    if (flight.leaves != EventKind::stick || flight.arrives != EventKind::stick) return false;
+    if (flight.leaves != Event::Kind::stick || flight.arrives != Event::Kind::stick) return false;
     if (!(flight.end - flights.start(flight) < less_than)) return false;
   }
   return orbit.size() > 0;
@@ -27,11 +27,11 @@ bool slips_for_less(const Flights<double, E>& flights, const Orbit& orbit, doubl
 template <Effects E>
 std::optional<Violation> at_halt(const Flights<double, E>& flights, const Orbit& orbit, std::size_t i) {
   using enum Violation::Kind;
-  const OrbitImpact& halt = orbit.impacts[i];
+  const OrbitEvent& halt = orbit.events[i];
   const auto holds = [&](Side side) { return flights.left_to_level(halt.place, halt.phase, side) >= 0; };
   const auto release = [&](Side side) { return flights.hold(halt.place, halt.phase, side); };
   const Side before = orbit.heading_before(i), other = opposite(halt.side);
-  if (halt.event == EventKind::reversal)
+  if (halt.kind == Event::Kind::reversal)
     return holds(halt.side) ? std::optional(Violation{sticks, i, {}}) : std::nullopt;
   if (!holds(halt.side) || !holds(other)) return Violation{slips, i, {}};
   if (release(halt.side) == std::numeric_limits<double>::infinity()) return Violation{stays, i, {}};
@@ -44,11 +44,12 @@ template <Effects E>
 std::optional<Violation> in_flight(const Flights<double, E>& flights, const Orbit& orbit, std::size_t i) {
   const Flight<double> flight = detail::flight_of<double>(orbit, i);
   const SceneNumbers<double>& p = flights.parameters();
-  const Side ahead = orbit.impacts[i].heading();
+  const Side ahead = orbit.events[i].heading();
   const double sign = sign_of(ahead), start = flights.start(flight), nu = p.oscillator.frequency,
                length = (flight.end - start) / nu;
   if (!(length > 0)) return Violation{Violation::Kind::slips, i, {}};
-  if (flight.arrives == EventKind::stick && length * nu < shortest) return Violation{Violation::Kind::vanishes, i, {}};
+  if (flight.arrives == Event::Kind::stick && length * nu < shortest)
+    return Violation{Violation::Kind::vanishes, i, {}};
   return flights.with_arc(flight, [&](const auto& arc) -> std::optional<Violation> {
     const Margin gap{sign * (p.position(ahead) - arc.anchor()), -sign, 0.0}, velocity{0.0, 0.0, sign};
     const auto crossing = motion::first_crossing(arc, std::array{gap, velocity}, length);
@@ -61,12 +62,12 @@ std::optional<Violation> in_flight(const Flights<double, E>& flights, const Orbi
     if (meets) return Violation{Violation::Kind::passes_through, i, {ahead, flight.end, 0.0}};
     const double turn = turning_time(arc, velocity, crossing.elapsed);
     // beside a graze the velocity and the way to the stop fall to 0 at once: the impact has no speed
-    if (flight.arrives == EventKind::impact && turn > length)
+    if (flight.arrives == Event::Kind::impact && turn > length)
       return Violation{Violation::Kind::pulls, (i + 1) % orbit.size(), {}};
     return Violation{
         Violation::Kind::halts,
         i,
-        {ahead, start + nu * turn, 0.0, 0.0, EventKind::stick, static_cast<double>(arc.at(turn).x) - p.middle()}};
+        {ahead, start + nu * turn, 0.0, Event::Kind::stick, 0.0, static_cast<double>(arc.at(turn).x) - p.middle()}};
   });
 }
 
@@ -92,11 +93,11 @@ std::vector<Violation> slip_violations(const FollowedScene& scene, const Orbit& 
     const Flights<double, E> flights{numbers_of<double>(scene)};
     if (ceases(flights, orbit)) found.push_back({Violation::Kind::ceases, 0, {}});
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      const OrbitImpact& event = orbit.impacts[i];
+      const OrbitEvent& event = orbit.events[i];
       if (i == grazing) continue;
-      if (!halts(event.event) && !(sign_of(event.side) * event.before > 0))
+      if (!halts(event.kind) && !(sign_of(event.side) * event.before > 0))
         found.push_back({Violation::Kind::pulls, i, {}});
-      if (halts(event.event)) add(at_halt(flights, orbit, i));
+      if (halts(event.kind)) add(at_halt(flights, orbit, i));
     }
     for (std::size_t i = 0; i < orbit.size(); ++i) add(in_flight(flights, orbit, i));
   });

@@ -27,7 +27,7 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
   };
   // a branch begins across the parameter if it is born in a flip or a loss of symmetry: that is no fold of it, and as
   // all its measures turn round there, no maximum; if a halt of no length begins there, derivatives have no digits
-  const bool begins_to_halt = is_first && std::ranges::any_of(equations.shape().impacts, halts, &OrbitImpact::event);
+  const bool begins_to_halt = is_first && std::ranges::any_of(equations.shape().events, halts, &OrbitEvent::kind);
   const double turns_until = is_first ? step / 8 : 0.0, begin = begins_to_halt ? 1e-3 * step : 0.0;
   look(
       SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false,

@@ -8,7 +8,7 @@ namespace {
 
 /// The only impact of a mirrored orbit that is just born, at a phase of -pi ... pi.
 Orbit near_phase_zero(Orbit orbit) {
-  double& phase = orbit.impacts[0].phase;
+  double& phase = orbit.events[0].phase;
   phase = std::remainder(phase, 2 * std::numbers::pi);
   return orbit;
 }
@@ -16,21 +16,20 @@ Orbit near_phase_zero(Orbit orbit) {
 }  // namespace
 
 Orbit with_graze(Orbit orbit, std::size_t first) {
-  const OrbitImpact one = orbit.impact(first), other = orbit.impact(first + 1);
-  OrbitImpact& graze = orbit.impacts[first];
+  const OrbitEvent one = orbit.event(first), other = orbit.event(first + 1);
+  OrbitEvent& graze = orbit.events[first];
   graze.phase = (one.phase + other.phase) / 2;
-  graze.before = one.event == EventKind::touch ? 0.0 : (one.before + other.before) / 2;
-  graze.event =
-      presses(other.event) ? EventKind::renewal : other.event;  // after which the arc is that before the first
+  graze.before = one.kind == Event::Kind::touch ? 0.0 : (one.before + other.before) / 2;
+  graze.kind = presses(other.kind) ? Event::Kind::renewal : other.kind;  // after which the arc is that before the first
   const std::size_t second = (first + 1) % orbit.size();
-  orbit.impacts.erase(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(second));
+  orbit.events.erase(orbit.events.begin() + static_cast<std::ptrdiff_t>(second));
   return orbit;
 }
 
 Graze Touch::graze() const {
-  const OrbitImpact& event = orbit.impacts[impact];
-  const bool within = event.event != EventKind::impact && event.before != 0 && !turns;
-  return {orbit, impact, {within ? Condition::Kind::force : Condition::Kind::graze, 1, impact}};
+  const OrbitEvent& grazes = orbit.events[event];
+  const bool within = !is_impact(grazes.kind) && grazes.before != 0 && !turns;
+  return {orbit, event, {within ? Condition::Kind::force : Condition::Kind::graze, 1, event}};
 }
 
 std::optional<Narrowed> narrowed(const OrbitEquations& equations, const Walk& walk, double step) {
@@ -54,23 +53,23 @@ std::optional<Narrowed> narrowed(const OrbitEquations& equations, const Walk& wa
 Touch touch_of(const OrbitEquations& equations, const Narrowed& between) {
   Touch touch{between.last_good, between.beyond, equations.orbit_at(between.beyond.at)};
   const Violation& found = between.violated;
-  touch.impact = found.impact;
+  touch.event = found.event;
   touch.appears = found.kind == Violation::Kind::passes_through;
-  touch.turns = found.kind == Violation::Kind::pulls && presses(touch.orbit.impacts[touch.impact].event);
+  touch.turns = found.kind == Violation::Kind::pulls && presses(touch.orbit.events[touch.event].kind);
   touch.halts = has_friction(equations.scene_at(between.beyond.at).friction);
   if (touch.appears && touch.halts) {
-    touch.impact = (found.impact + 1) % touch.orbit.size();
-    OrbitImpact& halt = touch.orbit.impacts[touch.impact];
+    touch.event = (found.event + 1) % touch.orbit.size();
+    OrbitEvent& halt = touch.orbit.events[touch.event];
     halt = {opposite(halt.side), halt.phase};
   } else if (touch.appears) {
     const bool first = touch.orbit.size() == 0;
-    touch.impact = first ? 0 : found.impact + 1;
-    touch.orbit = touch.orbit.with(found.turning, touch.impact);
+    touch.event = first ? 0 : found.event + 1;
+    touch.orbit = touch.orbit.with(found.turning, touch.event);
     if (first && touch.orbit.mirrored) touch.orbit = near_phase_zero(touch.orbit);
   } else if (found.kind == Violation::Kind::ends_early) {
-    const std::size_t first = found.impact;
+    const std::size_t first = found.event;
     touch.orbit = with_graze(touch.orbit, first), touch.vanishes = first;
-    touch.impact = first + 1 < equations.shape().size() ? first : first - 1;
+    touch.event = first + 1 < equations.shape().size() ? first : first - 1;
   }
   return touch;
 }
@@ -80,10 +79,10 @@ std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& w
   return between ? std::optional(touch_of(equations, *between)) : std::nullopt;
 }
 
-Orbit halting_at_stop(const FollowedScene& scene, Orbit orbit, std::size_t impact) {
+Orbit halting_at_stop(const FollowedScene& scene, Orbit orbit, std::size_t event) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
-  OrbitImpact& halt = orbit.impacts[impact];
-  halt = {opposite(halt.side), halt.phase, 0.0, 0.0, EventKind::reversal, p.position(halt.side) - p.middle()};
+  OrbitEvent& halt = orbit.events[event];
+  halt = {opposite(halt.side), halt.phase, 0.0, Event::Kind::reversal, 0.0, p.position(halt.side) - p.middle()};
   return orbit;
 }
 

@@ -25,7 +25,7 @@ struct Touch {
   CurvePoint last_good;                   ///< before the graze, of which the proof of first contact holds
   CurvePoint beyond;                      ///< the same motion a little beyond the graze
   Orbit orbit;                            ///< with the impact that grazes
-  std::size_t impact = 0;                 ///< its number
+  std::size_t event = 0;                  ///< its number
   bool appears = false;                   ///< beyond the graze there is one impact more; else one less
   std::optional<std::size_t> vanishes{};  ///< the event of the walked motion that the contact that vanishes begins with
   bool turns = false;  ///< or none more nor less: a renewal turns into a touch, or the other way round
@@ -43,6 +43,6 @@ struct Touch {
 [[nodiscard]] std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& walk, double step);
 
 /// The motion that halts in place of an impact without speed.
-[[nodiscard]] Orbit halting_at_stop(const FollowedScene& scene, Orbit orbit, std::size_t impact);
+[[nodiscard]] Orbit halting_at_stop(const FollowedScene& scene, Orbit orbit, std::size_t event);
 
 }  // namespace clatter::branches

@@ -18,17 +18,17 @@ struct Path {
   double begin;  ///< forcing phase, rad
   double length;
   Side to;  ///< none: it meets no stop
-  EventKind arrives = EventKind::impact;
+  Event::Kind arrives = Event::Kind::impact;
   bool ends_in_graze = false;
 };
 
 template <Effects E>
 std::optional<Violation> passes_through(const motion::Arc<double, E>& arc, const Path& path, const Margin& margin,
-                                        double from, Side side, EventKind turns) {
+                                        double from, Side side, Event::Kind turns) {
   const double turn = turning_time(arc, margin, from);
-  const double v = turns == EventKind::impact ? 0.0 : arc.at(turn).v;
+  const double v = turns == Event::Kind::impact ? 0.0 : arc.at(turn).v;
   return Violation{
-      Violation::Kind::passes_through, path.number, {side, path.begin + arc.constants().nu * turn, v, 0.0, turns}};
+      Violation::Kind::passes_through, path.number, {side, path.begin + arc.constants().nu * turn, v, turns}};
 }
 
 template <Effects E>
@@ -39,7 +39,7 @@ std::optional<Violation> cut_short(const SceneNumbers<double>& p, const motion::
   const motion::Motion<double> m = contact.motion;
   if (contact.side == path.to && is_at_end(contact.elapsed, path.length, m.x, m.v, arc.constants().nu))
     return std::nullopt;
-  const EventKind turns = is_soft(p.stops, contact.side) ? EventKind::separation : EventKind::impact;
+  const Event::Kind turns = is_soft(p.stops, contact.side) ? Event::Kind::separation : Event::Kind::impact;
   const Margin gap{0.0, -static_cast<double>(sign_of(contact.side)), 0.0};
   std::optional<Violation> found = passes_through(arc, path, gap, contact.elapsed, contact.side, turns);
   found->turning.before = 0.0;
@@ -55,10 +55,10 @@ std::optional<Violation> separates(const motion::SoftStop<double>& stop, const m
   const auto crossing = motion::first_crossing(arc, std::array{force}, path.length);
   if (crossing.resolved && crossing.margin != 0) return std::nullopt;
   const motion::Motion<double>& m = crossing.motion;
-  if (path.arrives != EventKind::impact && crossing.resolved &&
+  if (path.arrives != Event::Kind::impact && crossing.resolved &&
       is_at_end(crossing.elapsed, path.length, m.offset, force.slope(m), arc.constants().nu))
     return std::nullopt;
-  return passes_through(arc, path, force, crossing.elapsed, stop.side, EventKind::renewal);
+  return passes_through(arc, path, force, crossing.elapsed, stop.side, Event::Kind::renewal);
 }
 
 /// After a separation beyond the position of a soft stop the mass comes back to that position, or to the stop.
@@ -69,7 +69,7 @@ std::optional<Violation> free_within(const SceneNumbers<double>& p, const motion
   const Margin depth{0.0, into, 0.0}, pull{0.0, -into, -into * stop.relaxation()};
   const auto crossing = motion::first_crossing(arc, std::array{depth, pull}, path.length);
   const motion::Motion<double>& m = crossing.motion;
-  const bool renews = path.arrives == EventKind::renewal;
+  const bool renews = path.arrives == Event::Kind::renewal;
   if (crossing.resolved && crossing.margin == 0 && !renews) {
     Path rest = path;
     rest.begin += nu * crossing.elapsed, rest.length -= crossing.elapsed;
@@ -85,18 +85,18 @@ std::optional<Violation> free_within(const SceneNumbers<double>& p, const motion
   // where the mass just comes back to that position first, a renewal turns into a touch of the stop from outside
   const bool is_late = (path.length - crossing.elapsed) * arc.constants().rate < 1e-2;
   if (presses(path.arrives) && path.to == stop.side && is_late) return Violation{Violation::Kind::pulls, path.next, {}};
-  return passes_through(arc, path, pull, crossing.elapsed, stop.side, EventKind::separation);
+  return passes_through(arc, path, pull, crossing.elapsed, stop.side, Event::Kind::separation);
 }
 
 /// Whether the velocity of an event has the right sign.
-bool points_right(const OrbitImpact& impact) {
-  const double into = sign_of(impact.side) * impact.before;
-  return impact.event == EventKind::impact || impact.event == EventKind::touch ? into > 0 : into < 0;
+bool points_right(const OrbitEvent& event) {
+  const double into = sign_of(event.side) * event.before;
+  return event.kind == Event::Kind::impact || event.kind == Event::Kind::touch ? into > 0 : into < 0;
 }
 
 Flight<double> flight_after(const Orbit& orbit, std::size_t i) {
-  const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
-  return {from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
+  const OrbitEvent from = orbit.event(i), to = orbit.event(i + 1);
+  return {from.side, from.phase, from.before, to.side, to.phase, from.kind, to.kind};
 }
 
 /// Where two events of a soft stop are about to vanish, the proof may find a third one beside them: it is theirs.
@@ -108,11 +108,11 @@ Violation told_apart(const SceneNumbers<double>& p, const Orbit& orbit, const Vi
   };
   if (found.kind == Violation::Kind::pulls) {
     // a damper lets go of the mass once it stands, but for rounding, if it has hardly touched it
-    const bool separates = orbit.impacts[found.impact].event == EventKind::separation;
-    const std::size_t i = separates ? (found.impact + orbit.size() - 1) % orbit.size() : found.impact;
+    const bool separates = orbit.events[found.event].kind == Event::Kind::separation;
+    const std::size_t i = separates ? (found.event + orbit.size() - 1) % orbit.size() : found.event;
     return vanishes(i) ? Violation{Violation::Kind::ends_early, i, {}} : found;
   }
-  if (found.turning.event == EventKind::impact) return found;
+  if (found.turning.kind == Event::Kind::impact) return found;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const Flight<double> flight = flight_after(orbit, i);
     const double distance = std::remainder(found.turning.phase - flight.begin, orbit.advance());
@@ -132,8 +132,8 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
         for (const Side side : {Side::lower, Side::upper})  // begins beyond the stop
           if (const double sign = sign_of(side); sign * (arc.start().x - p.position(side)) > 0) {
             const double turn = std::atan2(sign * response.in_phase, sign * response.quadrature) - flights.lead();
-            const EventKind turns = is_soft(p.stops, side) ? EventKind::separation : EventKind::impact;
-            return Violation{Violation::Kind::passes_through, 0, {side, turn, 0.0, 0.0, turns}};
+            const Event::Kind turns = is_soft(p.stops, side) ? Event::Kind::separation : Event::Kind::impact;
+            return Violation{Violation::Kind::passes_through, 0, {side, turn, 0.0, turns}};
           }
         return cut_short(p, arc, path);
       });
@@ -155,9 +155,9 @@ std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbi
         flight.may_vanish(of_scene) && !(flight.begin < flight.end))
       return Violation{Violation::Kind::ends_early, i, {}};
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (i != grazing && !points_right(orbit.impacts[i])) {
+    if (i != grazing && !points_right(orbit.events[i])) {
       const Violation pulls{Violation::Kind::pulls, i, {}};
-      return orbit.impacts[i].event == EventKind::separation ? told_apart(of_scene, orbit, pulls) : pulls;
+      return orbit.events[i].kind == Event::Kind::separation ? told_apart(of_scene, orbit, pulls) : pulls;
     }
   return with_arcs(scene, [&]<Effects E>() -> std::optional<Violation> {
     const Flights<double, E> flights{numbers_of<double>(scene)};
@@ -165,14 +165,14 @@ std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbi
     if (orbit.size() == 0) return response_violation(flights, orbit);
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       Flight<double> flight = flight_after(orbit, i);
-      const bool without_speed = flight.leaves == EventKind::impact || std::abs(flight.before) <= 1e-9;
+      const bool without_speed = flight.leaves == Event::Kind::impact || std::abs(flight.coordinate) <= 1e-9;
       const bool leaves_graze = i == grazing && !presses(flight.leaves) && without_speed;
-      if (leaves_graze) flight.before = 0;
+      if (leaves_graze) flight.coordinate = 0;
       Path path{i,         (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.oscillator.frequency,
                 flight.to, flight.arrives};
-      path.ends_in_graze = path.next == grazing && flight.arrives == EventKind::separation && !presses(flight.leaves);
+      path.ends_in_graze = path.next == grazing && flight.arrives == Event::Kind::separation && !presses(flight.leaves);
       auto found = flights.with_arc(flight, [&](const auto& arc) {
-        if (flight.leaves == EventKind::impact || leaves_graze) return cut_short(p, arc, path);
+        if (flight.leaves == Event::Kind::impact || leaves_graze) return cut_short(p, arc, path);
         const motion::SoftStop<double> stop = p.soft_stop(flight.from);
         const auto flown = [&](const auto& from) {
           if (presses(flight.leaves)) return separates(stop, from, path);
@@ -183,7 +183,7 @@ std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbi
         path.begin += p.oscillator.frequency * clear, path.length -= clear;
         return flown(motion::Arc(arc.constants(), arc.at(clear), stop.position));
       });
-      if (found && !(found->kind == Violation::Kind::pulls && found->impact == grazing))
+      if (found && !(found->kind == Violation::Kind::pulls && found->event == grazing))
         return told_apart(p, orbit, *found);
     }
     return std::nullopt;

@@ -22,10 +22,10 @@ struct Violation {
     ceases           ///< friction is up to the force, and all slips are about to vanish
   };
   Kind kind = Kind::passes_through;
-  std::size_t impact = 0;  ///< that the flight began with; or that pulls
-  OrbitImpact turning{};   ///< passes_through: the turning point beyond the stop, as an impact without speed; or the
-                           ///< extremum of the soft stop's force, as an event that changes nothing; halts: that of the
-                           ///< velocity, as a stick
+  std::size_t event = 0;  ///< its number: that of the flight's beginning, or of the event that is wrong itself
+  OrbitEvent turning{};   ///< passes_through: the turning point beyond the stop, as an impact without speed; or the
+                          ///< extremum of the soft stop's force, as an event that changes nothing; halts: that of the
+                          ///< velocity, as a stick
 };
 
 /// The first violation of an orbit, by the proof of first contact on each of its flights, and by that of the first sign
