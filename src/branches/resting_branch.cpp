@@ -21,7 +21,7 @@ std::ptrdiff_t renewals_of(const Orbit& orbit) {
   return std::ranges::count(orbit.events, Event::Kind::renewal, &OrbitEvent::kind);
 }
 
-/// An impact that is a letter of its own, or the begin of a rest, which moves as the last impact of its chatter.
+/// An event that is a letter of its own, or the beginning of a rest, which moves as the last impact of its chatter.
 struct Joint {
   Along phase, before;
   double rest;  ///< its length, rad; 0: an impact
@@ -127,14 +127,14 @@ void RestingBranch::walk(Orbit here_orbit, int heading) {
   record_.end(point(here, here_orbit), "range");
 }
 
-std::optional<RestingBranch::Place> RestingBranch::place(double value, const Orbit& like) const {
+std::optional<RestingBranch::Sample> RestingBranch::sample(double value, const Orbit& like) const {
   const std::optional<Orbit> there = orbit(value, stop_, like);
   if (!there || letters_of(*there) != letters_of(like)) return std::nullopt;
-  return Place{value, *there, moving_from_release(scene(value), *there, settings_.along)};
+  return Sample{value, *there, moving_from_release(scene(value), *there, settings_.along)};
 }
 
-/// Whether the tangents at two places of a branch lead from one to the other.
-bool RestingBranch::are_joined(const Place& one, const Place& other) const {
+/// Whether the tangents at two points of a branch lead from one to the other.
+bool RestingBranch::are_joined(const Sample& one, const Sample& other) const {
   constexpr double rough = 0.1;  // rad, of the unit of speeds, and of a rest
   const double ahead = other.value - one.value;
   const auto is_smooth = [&](const Along& from, const Along& to, double unit) {
@@ -153,10 +153,10 @@ bool RestingBranch::are_joined(const Place& one, const Place& other) const {
 RestingBranch::Stretch RestingBranch::stretch(double here, const Orbit& from, double to) const {
   struct Goal {
     double value;
-    std::optional<Place> alike;
+    std::optional<Sample> alike;
   };
-  const auto goal = [&](double value) { return Goal{value, place(value, from)}; };
-  Place good{here, from, moving_from_release(scene(here), from, settings_.along)};
+  const auto goal = [&](double value) { return Goal{value, sample(value, from)}; };
+  Sample good{here, from, moving_from_release(scene(here), from, settings_.along)};
   std::vector<Goal> goals{goal(to)};
   while (!goals.empty()) {
     const Goal& next = goals.back();

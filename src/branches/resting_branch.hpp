@@ -29,7 +29,7 @@ class RestingBranch {
 
  private:
   /// The motion at a value of the parameter, and how it changes along it.
-  struct Place {
+  struct Sample {
     double value;
     Orbit orbit;
     Moving moving;
@@ -47,8 +47,8 @@ class RestingBranch {
   [[nodiscard]] std::optional<std::pair<double, Orbit>> resting_ahead(const BranchPoint& last, Side stop,
                                                                       double ahead) const;
   [[nodiscard]] BranchPoint point(double value, const Orbit& orbit) const;
-  [[nodiscard]] std::optional<Place> place(double value, const Orbit& like) const;
-  [[nodiscard]] bool are_joined(const Place& one, const Place& other) const;
+  [[nodiscard]] std::optional<Sample> sample(double value, const Orbit& like) const;
+  [[nodiscard]] bool are_joined(const Sample& one, const Sample& other) const;
   [[nodiscard]] Stretch stretch(double here, const Orbit& from, double to) const;
   [[nodiscard]] bool has_rest_beside_limit(double value, const Orbit& orbit) const;
   [[nodiscard]] bool is_new_contact(const Orbit& one, const Orbit& other) const;

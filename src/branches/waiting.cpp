@@ -31,7 +31,7 @@ std::string events_of(const Orbit& orbit) {
   return first;
 }
 
-/// Those of a branch that waits, beyond the special point.
+/// The events of a branch that waits, beyond the special point.
 std::string events_of(const Waiting& waiting) {
   constexpr double any = 1e-3;  // rad
   if (!waiting.opens || waiting.opens->kind == Opening::Kind::contact) return events_of(waiting.orbit);

@@ -56,7 +56,7 @@ struct FlightEnd {
   /// over its stiffness; that over the duration if it is zero at the beginning, too, so that a flight without duration
   /// is no solution. At a halt the velocity.
   Number beyond;
-  Number coordinate;  ///< velocity before the impact; at a halt the place
+  Number coordinate;  ///< as that of the event it ends with: the velocity, or the place of a halt
 };
 
 /// The flights at given parameters. Arcs refer to it.

@@ -99,7 +99,7 @@ using Along = Dual<double, 1>;
 [[nodiscard]] Oscillator oscillator_in_frame(const Scene& scene);
 
 /// Relative motion less that in which a scene is computed: of a loose mass on a shaken base, which is computed on the
-/// ground; nothing if they are the same.
+/// ground; nothing if the frames don't differ.
 [[nodiscard]] std::optional<FrameMotion> frame_of_results(const Scene& scene);
 
 /// The problem that a branch begins with, or another scene on it, as it is computed.

@@ -35,8 +35,7 @@ struct HousingCharacteristic {
 [[nodiscard]] HousingCharacteristic housing_characteristic(const FollowedScene& scene, const Orbit& orbit);
 
 /// The multipliers of the orbit as it is kept, the largest modulus first; NaN in a graze, and beside one so large that
-/// others have no digits. Of motion without impacts two
-/// are 1, those of the loose mass.
+/// others have no digits. Of motion without impacts two are 1, those of the loose mass.
 [[nodiscard]] std::array<std::complex<double>, 4> housing_multipliers(const FollowedScene& scene, const Orbit& orbit);
 
 /// The unit direction from a flip, or a loss of symmetry, into the motion that is born there, as

@@ -67,7 +67,7 @@ auto product(const Square<A>& a, const Square<B>& b) {
   return c;
 }
 
-/// One flight's derivative of the next impact by the last, times the denominator.
+/// One flight's derivative of the next event by the last, times the denominator.
 template <class Number>
 struct Link {
   Square<Number> numerator;
@@ -75,7 +75,7 @@ struct Link {
 };
 
 /// From derivatives of gap and velocity, or at a halt of velocity and place, by the beginning's phase and velocity and
-/// by the end's phase. The mirrored orbit's last flight ends in the mirror image of its first impact. A stick's phase
+/// by the end's phase. The mirrored orbit's last flight ends in the mirror image of its first event. A stick's phase
 /// changes nothing, and its place, at which the velocity is 0, doesn't depend on it: so a stick without a length has a
 /// link, too, though the mass isn't slowed down there.
 template <class Number>
@@ -159,12 +159,12 @@ Number determinant_of(const SceneNumbers<Number>& p, const Orbit& orbit) {
   };
   if (orbit.pressed != Side::none) press(orbit.pressed, orbit.advance());
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    const OrbitEvent& impact = orbit.events[i];
-    if (impact.kind == Event::Kind::impact) determinant *= p.restitution(impact.side) * p.restitution(impact.side);
-    if (presses(impact.kind)) press(impact.side, orbit.event(i + 1).phase - impact.phase);
-    if (impact.kind == Event::Kind::stick) determinant = Number(0);
-    if (impact.kind == Event::Kind::reversal)
-      determinant *= reversal_factor(p, impact.side, Number(impact.phase), Number(impact.place));
+    const OrbitEvent& event = orbit.events[i];
+    if (event.kind == Event::Kind::impact) determinant *= p.restitution(event.side) * p.restitution(event.side);
+    if (presses(event.kind)) press(event.side, orbit.event(i + 1).phase - event.phase);
+    if (event.kind == Event::Kind::stick) determinant = Number(0);
+    if (event.kind == Event::Kind::reversal)
+      determinant *= reversal_factor(p, event.side, Number(event.phase), Number(event.place));
   }
   return determinant;
 }

@@ -68,7 +68,7 @@ struct Orbit {
   [[nodiscard]] bool next_is_rest(std::size_t i) const { return i + 1 < size() && events[i + 1].rest > 0; }
   [[nodiscard]] bool meets_soft_stop() const;
   [[nodiscard]] bool halts() const;  ///< by dry friction, away from the stops
-  /// Whether the motion is the same without the event i, which grazes.
+  /// Whether the motion is a solution without the event i, which grazes, too.
   [[nodiscard]] bool changes_nothing(std::size_t i) const;
   [[nodiscard]] double advance() const;       ///< of the forcing phase, rad
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
@@ -79,7 +79,7 @@ struct Orbit {
   /// The side that the mass moves to before event i, if it is one of rigid stops and dry friction.
   [[nodiscard]] Side heading_before(std::size_t i) const;
 
-  [[nodiscard]] Orbit from_event(std::size_t i) const;  ///< the same, with event i as its first
+  [[nodiscard]] Orbit from_event(std::size_t i) const;  ///< this motion, with event i as its first
   [[nodiscard]] Orbit whole() const;                    ///< both halves, if one is kept
   [[nodiscard]] Orbit mirror_image() const;             ///< half a forcing period later
   [[nodiscard]] Orbit repeated(int times) const;        ///< of the whole, as if it repeated only after so many periods

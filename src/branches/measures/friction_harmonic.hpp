@@ -8,7 +8,7 @@ namespace clatter::branches {
 struct Harmonic {
   Along re = 0, im = 0;
 };
-/// That of dry friction, in closed form: mu against each slip, and whatever holds the mass in a stick.
+/// The harmonic of the force of friction, in closed form: mu against each slip, and in a stick all that holds the mass.
 [[nodiscard]] Harmonic friction_harmonic(const Moving& moving);
 
 }  // namespace clatter::branches

@@ -47,8 +47,8 @@ struct MotionStart {
 /// Throws StartError.
 [[nodiscard]] Orbit start_orbit(const StartProblem& problem, std::int64_t period, bool symmetric);
 
-/// The impacts of a run over whole forcing periods, and its events on soft stops; nothing if it fails. Phases are
-/// counted from the start. A problem in the frame of what is shaken.
+/// The events of a run over whole forcing periods; nothing if it fails. Phases are counted from the start. A problem in
+/// the frame of what is shaken.
 [[nodiscard]] std::optional<Orbit> event_run(const point::Problem& problem, std::size_t periods);
 
 }  // namespace clatter::branches

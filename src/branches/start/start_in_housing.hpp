@@ -8,9 +8,8 @@ namespace clatter::branches {
 /// differ.
 void require_walls_in_range(const FollowedScene& scene, Parameter parameter, const std::array<double, 2>& range);
 
-/// The periodic motion of a loose mass near a state, as `start_orbit` gives it, of a scene and of the same problem as
-/// it is computed. Throws StartError if it meets no wall
-/// or is pressed onto one, as neither is followed.
+/// The periodic motion of a loose mass near a state, as `start_orbit` gives it; `problem` is the scene as it is
+/// computed. Throws StartError if the mass meets no wall or is pressed onto one, as neither is followed.
 [[nodiscard]] Orbit start_in_housing(const FollowedScene& scene, const point::Problem& problem, const MotionStart& near,
                                      bool symmetric);
 

@@ -24,11 +24,11 @@ struct ExactGraze {
   FollowedScene scene;
   Orbit orbit;
   std::size_t event = 0;
-  bool joins =
-      false;  ///< several grazes of soft stops at once are one of a motion that repeats sooner, or is symmetric
+  /// Whether several grazes of soft stops at once are one of a motion that repeats sooner, or is symmetric.
+  bool joins = false;
 };
-/// That near a guess, at a parameter within a distance of it, over the width of the range; nothing if there is none. A
-/// contact with a soft stop that begins with less than `slow` may graze, too.
+/// The graze near a guess, at a parameter within a distance of it, over the width of the range; nothing if there is
+/// none. A contact with a soft stop that begins with less speed than `slow` may graze, too.
 [[nodiscard]] std::optional<ExactGraze> exact_graze(const Equations& equations, const FollowedScene& near, Graze graze,
                                                     double slow, bool symmetric_scene, double within, double tolerance);
 

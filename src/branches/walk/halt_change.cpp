@@ -30,7 +30,7 @@ double of_flights(const FollowedScene& scene, Function&& function) {
 double held(const FollowedScene& scene, const OrbitEvent& halt) {
   return of_flights(scene, [&](const auto& flights) { return flights.hold(halt.place, halt.phase, halt.side); });
 }
-/// Whether it does at the instant at which the mass halts.
+/// Whether friction holds a mass against a push to a side at the instant at which it halts.
 bool holds(const FollowedScene& scene, const OrbitEvent& halt, Side side) {
   return of_flights(scene, [&](const auto& flights) { return flights.left_to_level(halt.place, halt.phase, side); }) >=
          0;
@@ -72,7 +72,8 @@ double length_of_slip(const FollowedScene& scene, const OrbitEvent& from, const 
   return to.phase - from.phase - (from.kind == Event::Kind::stick ? held(scene, from) : 0.0);
 }
 
-/// A reversal comes to be a stick: a short one, or one that begins as the slip after it has become no more, or at once.
+/// A reversal comes to be a stick: a short one, or a longer one at once, or when the slip after it has shrunk to
+/// nothing.
 HaltChange sticking(const Orbit& orbit, const FollowedScene& scene, std::size_t i, bool jumps) {
   const OrbitEvent& halt = orbit.events[i];
   HaltChange change{SpecialKind::crossing_sliding, orbit.with_kind(i, Event::Kind::stick),
@@ -97,8 +98,9 @@ std::optional<HaltChange> reaching(const Orbit& orbit, std::size_t halt) {
   return change;
 }
 
-/// A stick has become no more, or the other way is open sooner. What is open where the push falls, or touches the level
-/// at its crest, is so for a short slip, from nothing; with a static level above the kinetic one for a long one.
+/// A stick has shrunk to nothing, or the mass is released the other way sooner. A release where the push falls, or
+/// touches the level at its crest, begins a short slip, from nothing; with a static level above the kinetic one a long
+/// slip.
 HaltChange slipping(const Orbit& orbit, const FollowedScene& scene, std::size_t i, bool jumps) {
   const OrbitEvent& halt = orbit.events[i];
   const Side other = opposite(halt.side);
@@ -266,7 +268,7 @@ std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const 
 
 namespace {
 
-/// That of a violation, if it is one of halts.
+/// The change that a violation shows, if it is one of halts.
 std::optional<HaltChange> of_violation(const OrbitEquations& equations, const CurvePoint& at, const Violation& found) {
   const FollowedScene scene = equations.scene_at(at.at);
   const Orbit orbit = equations.orbit_at(at.at);

@@ -23,7 +23,8 @@ struct HaltChange {
   std::optional<HaltForm> before{}, beyond{};  ///< of that halt; nothing: the motion isn't one of these
   std::optional<Opening::Kind> opens{};        ///< what begins from nothing beyond
 };
-/// That of the shortest slip to a halt, if it is about to vanish: what begins it and that halt become one stick.
+/// The change at which the shortest slip to a halt vanishes, if it is about to: its beginning and the halt become one
+/// stick.
 [[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at);
 
 /// Whether a reversal on a stop, as an impact there loses its speed, is none: the static level of friction, which is
@@ -33,8 +34,8 @@ struct HaltChange {
 /// Whether a mass that sticks on a stop leaves it once it strikes that, as the kinetic level doesn't hold it.
 [[nodiscard]] bool slips_on_from_stop(const FollowedScene& scene, const Orbit& orbit, std::size_t stick);
 
-/// Those that may be near an end of a branch with these violations beyond, the likeliest first; none if it is none of
-/// halts. As a slip vanishes, rounding decides which violation is found.
+/// The changes that may be near an end of a branch with these violations beyond, the likeliest first; none if halts
+/// don't end it. As a slip vanishes, rounding decides which violation is found.
 [[nodiscard]] std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found,
                                                    const std::vector<Violation>& violations);
 

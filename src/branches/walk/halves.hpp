@@ -12,9 +12,9 @@ struct MetHalves {
   CurvePoint point;
   Orbit half;
 };
-/// That within a step of a walk. Beside it one half less the other is a vector that grows with the distance from there,
-/// and points the other way on the other side. The turn of the parameter, which also is there, has no digits beside it.
-/// Nothing if the halves don't meet.
+/// Where the halves meet within a step of a walk; nothing if they don't. One half less the other is a vector that grows
+/// with the distance from there, and points the other way on the other side: it has digits where the turn of the
+/// parameter, which is there, too, has none.
 [[nodiscard]] std::optional<MetHalves> halves_met(const OrbitEquations& equations, const Walk& walk, double step,
                                                   bool symmetric_scene);
 

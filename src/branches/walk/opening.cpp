@@ -133,7 +133,7 @@ struct Lasting {
   Vector at;
   std::size_t first;
 };
-/// That of which the slip, the contact or its interruption lasts for `advance` of the phase.
+/// The motion of which the slip, the contact or its interruption lasts for `advance` of the phase.
 std::optional<Lasting> with_lasting(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
                                     const Opening& opening, double advance, double tolerance) {
   Lasting lasting{with_opening(scene, orbit, opening, advance), {}, opening.event};

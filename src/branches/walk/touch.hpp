@@ -23,10 +23,10 @@ struct Narrowed {
 /// changes nothing. Or the mass, in contact again beyond the stop's position, just comes back to that first.
 struct Touch {
   CurvePoint last_good;                   ///< before the graze, of which the proof of first contact holds
-  CurvePoint beyond;                      ///< the same motion a little beyond the graze
-  Orbit orbit;                            ///< with the impact that grazes
+  CurvePoint beyond;                      ///< of that motion a little beyond the graze
+  Orbit orbit;                            ///< with the event that grazes
   std::size_t event = 0;                  ///< its number
-  bool appears = false;                   ///< beyond the graze there is one impact more; else one less
+  bool appears = false;                   ///< beyond the graze there is one event more; else one less
   std::optional<std::size_t> vanishes{};  ///< the event of the walked motion that the contact that vanishes begins with
   bool turns = false;  ///< or none more nor less: a renewal turns into a touch, or the other way round
   bool halts = false;  ///< under dry friction: without the impact the mass halts there
