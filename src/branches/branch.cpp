@@ -223,7 +223,7 @@ class Follower {
     const OrbitEvent &turn = touch.orbit.events[touch.event], &begins = touch.orbit.events[event];
     const bool at_once = turn.side == side && turn.phase - begins.phase < 1e-2;
     if (!at_once || !is_impact(begins.kind)) return false;
-    if (numbers_of<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
+    if (numbers_of<double>(equations.scene_at(touch.beyond.at)).law(side).share_at_rest() != 0) return false;
     const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, event}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
     if (!exact || std::abs(exact->back() - touch.beyond.at.back()) > near(step)) return false;

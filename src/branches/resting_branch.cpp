@@ -216,7 +216,7 @@ void RestingBranch::go_on_beyond(std::size_t limit, double last, const Orbit& go
                                  const std::optional<Orbit>& other, int heading) {
   if (other && rests_of(*other) > rests_of(good))
     return waiting_.push_back({scene(beyond), *other, {}, limit, generation_, heading});
-  if (numbers_of<double>(scene(last)).restitution(stop_) == 0) wait_without_rest(limit, last, good, heading);
+  if (numbers_of<double>(scene(last)).law(stop_).share_at_rest() == 0) wait_without_rest(limit, last, good, heading);
   const double value = last + heading * 1e-5 * width_;
   if (value < settings_.range[0] || value > settings_.range[1]) return;
   for (const Side stop : {Side::lower, Side::upper})

@@ -98,7 +98,7 @@ SceneSlopes slopes_along(const FollowedScene& scene, Parameter along) {
   const auto slope = [](const branches::Along& number) { return number.slope[0]; };
   const auto of_stop = [&](Side side) {
     const bool upper = side == Side::upper, soft = is_soft(scene.stops, side);
-    return SceneSlopes::Stop{slope(p.position(side)), soft ? 0.0 : slope(p.restitution(side)),
+    return SceneSlopes::Stop{slope(p.position(side)), soft ? 0.0 : slope(p.law(side).share_at_rest()),
                              soft ? slope(upper ? p.stops.stiffness_upper : p.stops.stiffness_lower) : 0.0,
                              soft ? slope(upper ? p.stops.damping_upper : p.stops.damping_lower) : 0.0};
   };

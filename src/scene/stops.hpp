@@ -78,6 +78,10 @@ struct Restitution {
   [[nodiscard]] Number after(const Number& before) const { return Number(0) - share(before) * before; }
   /// Change of the velocity by an impact.
   [[nodiscard]] Number jump(const Number& before) const { return -(Number(1) + share(before)) * before; }
+  /// Energy that an impact takes, per unit mass.
+  [[nodiscard]] Number lost(const Number& before) const {
+    return (1 - share(before)) * (1 + share(before)) * before * before / 2;
+  }
   /// Derivative of the velocity after by the velocity before.
   [[nodiscard]] Number derivative(const Number& /*before*/) const { return -R; }
 };

@@ -9,7 +9,7 @@
 #include "accuracy/accuracies.hpp"
 #include "sweep/figures.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::accuracy_dataset_test {
 namespace {
 
 const AccuracyOptions once{.rounds = 1};
@@ -148,4 +148,4 @@ TEST(AccuracyDataset, of_two_axes_lets_the_first_vary_slowest) {
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::accuracy_dataset_test

@@ -8,7 +8,7 @@
 
 #include "accuracy/accuracies.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::accuracy_edges_test {
 namespace {
 
 const AccuracyOptions once{.rounds = 1};
@@ -254,4 +254,4 @@ TEST(Accuracy, stops_wherever_it_is_told_to) {
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::accuracy_edges_test

@@ -8,7 +8,7 @@
 #include "accuracy/accuracies.hpp"
 #include "support/friction_scenes.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::accuracy_friction_test {
 namespace {
 
 const AccuracyOptions once{.rounds = 1};
@@ -100,4 +100,4 @@ TEST(StuckScene, has_one_rest_and_no_impact) {
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::accuracy_friction_test

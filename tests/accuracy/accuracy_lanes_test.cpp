@@ -8,7 +8,7 @@
 
 #include "accuracy/accuracies.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::accuracy_lanes_test {
 namespace {
 
 /// Every test, for every instruction set that this machine has.
@@ -144,4 +144,4 @@ INSTANTIATE_TEST_SUITE_P(Of, AccuracyInLanes,
                          [](const auto& of) { return std::string(name_of(of.param)); });
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::accuracy_lanes_test

@@ -10,7 +10,7 @@
 #include "accuracy/comparison.hpp"
 #include "support/loose_scenes.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::accuracy_loose_mass_test {
 namespace {
 
 const AccuracyOptions once{.rounds = 1};
@@ -89,4 +89,4 @@ TEST(LooseMassAccuracy, slow_impacts_before_a_rest_are_the_end_of_its_chatter) {
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::accuracy_loose_mass_test

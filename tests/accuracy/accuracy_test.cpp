@@ -9,7 +9,7 @@
 
 #include "accuracy/accuracies.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::accuracy_test {
 namespace {
 
 const AccuracyOptions once{.rounds = 1};
@@ -182,4 +182,4 @@ TEST(ChatteringScene, general_methods_miss_flights_shorter_than_their_steps) {
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::accuracy_test

@@ -7,7 +7,7 @@
 #include "accuracy/accuracy_dataset.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::accuracy_units_test {
 namespace {
 
 /// The same motion in units of time so many times shorter: frequencies are as many times higher.
@@ -68,4 +68,4 @@ TEST(Accuracy, without_a_spring_has_no_units_either) {
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::accuracy_units_test

@@ -10,7 +10,7 @@
 #include "accuracy/comparison.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::agreement_test {
 namespace {
 
 Event impact(double time, Side side = Side::upper) { return {Event::Kind::impact, side, time, 1.0, 0.0}; }
@@ -122,4 +122,4 @@ TEST(Agreement, of_chaotic_motion_ends_and_lasts_the_longer_the_more_room_there_
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::agreement_test

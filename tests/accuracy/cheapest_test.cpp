@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::cheapest_test {
 namespace {
 
 using lanes::InstructionSet;
@@ -66,4 +66,4 @@ TEST(Misses, begin_at_the_finest_setting_that_has_any) {
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::cheapest_test

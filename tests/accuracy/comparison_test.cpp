@@ -7,7 +7,7 @@
 
 #include "support/random.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::comparison_test {
 namespace {
 
 using Events = std::vector<Event>;
@@ -206,4 +206,4 @@ TEST(Comparison, with_nothing_finds_every_impact_missed) {
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::comparison_test

@@ -8,7 +8,7 @@
 
 #include "accuracy/timing.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::forecast_test {
 namespace {
 
 /// The times of the trials of a scene, in seconds: the exact method takes `exact`; other methods and observables cost
@@ -109,4 +109,4 @@ TEST(Forecast, a_trial_that_never_runs_takes_no_time) {
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::forecast_test

@@ -11,7 +11,7 @@
 #include "accuracy/observed_run.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::accuracy::run_record_test {
 namespace {
 
 constexpr double pi_ = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
@@ -201,4 +201,4 @@ TEST(PeriodicReference, is_nothing_if_the_motion_does_not_repeat) {
 }
 
 }  // namespace
-}  // namespace clatter::accuracy
+}  // namespace clatter::accuracy::run_record_test

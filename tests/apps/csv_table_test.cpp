@@ -12,7 +12,7 @@
 #include "support/random.hpp"
 #include "tables/csv_text.hpp"
 
-namespace clatter::app {
+namespace clatter::app::csv_table_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
@@ -135,4 +135,4 @@ TEST(CsvText, numbers_read_back_to_the_same_bits) {
 }
 
 }  // namespace
-}  // namespace clatter::app
+}  // namespace clatter::app::csv_table_test

@@ -10,7 +10,7 @@
 #include "sweep/figures.hpp"
 #include "sweep/run.hpp"
 
-namespace clatter::attractors {
+namespace clatter::attractors::basins_test {
 namespace {
 
 using results::Dataset;
@@ -188,4 +188,4 @@ TEST(Basins, shares_have_the_intervals_of_clopper_and_pearson) {
 }
 
 }  // namespace
-}  // namespace clatter::attractors
+}  // namespace clatter::attractors::basins_test

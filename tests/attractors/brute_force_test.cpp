@@ -19,7 +19,7 @@
 #include "sweep/figures.hpp"
 #include "sweep/run.hpp"
 
-namespace clatter::attractors {
+namespace clatter::attractors::brute_force_test {
 namespace {
 
 constexpr std::size_t starts = 10;
@@ -150,4 +150,4 @@ TEST(BruteForce, long_runs_from_the_states_in_which_points_ended_make_the_same_g
 }
 
 }  // namespace
-}  // namespace clatter::attractors
+}  // namespace clatter::attractors::brute_force_test

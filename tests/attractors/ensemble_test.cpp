@@ -8,7 +8,7 @@
 #include "attractors/tracked_motion.hpp"
 #include "point/point.hpp"
 
-namespace clatter::attractors {
+namespace clatter::attractors::ensemble_test {
 namespace {
 
 /// Fig. 23's oscillator.
@@ -184,4 +184,4 @@ TEST(Grid, counts_points_row_major_over_parameters_and_starts) {
 }
 
 }  // namespace
-}  // namespace clatter::attractors
+}  // namespace clatter::attractors::ensemble_test

@@ -5,7 +5,7 @@
 #include "point/point.hpp"
 #include "scene/displacement_bound.hpp"
 
-namespace clatter::attractors {
+namespace clatter::attractors::settling_test {
 namespace {
 
 double settling_of(point::Problem problem) {
@@ -74,4 +74,4 @@ TEST(Settling, of_motion_with_impacts_is_the_last_section_that_is_far_away) {
 }
 
 }  // namespace
-}  // namespace clatter::attractors
+}  // namespace clatter::attractors::settling_test

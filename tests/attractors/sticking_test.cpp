@@ -8,7 +8,7 @@
 #include "sweep/figures.hpp"
 #include "sweep/run.hpp"
 
-namespace clatter::attractors {
+namespace clatter::attractors::sticking_test {
 namespace {
 
 using results::Dataset;
@@ -105,4 +105,4 @@ TEST(Sticking, the_edges_keep_their_numbers_as_they_move) {
 }
 
 }  // namespace
-}  // namespace clatter::attractors
+}  // namespace clatter::attractors::sticking_test

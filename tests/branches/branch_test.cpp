@@ -12,7 +12,7 @@
 #include "point/point.hpp"
 #include "support/random.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::branch_test {
 namespace {
 
 point::Problem problem_of(double h, double f, double nu, const Stops& stops) {
@@ -288,4 +288,4 @@ TEST(Branch, refuses_starts_that_it_cannot_follow) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::branch_test

@@ -7,7 +7,7 @@
 #include "branches/equations/newton.hpp"
 #include "branches/walk/walk.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::curve_test {
 namespace {
 
 /// One stop at 1, force of frequency nu, motion over two forcing periods from x = 0 (VIVID, arXiv 2510.16218).
@@ -200,4 +200,4 @@ TEST(Curve, needs_a_point_to_begin_with) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::curve_test

@@ -10,7 +10,7 @@
 #include "math/dual.hpp"
 #include "math/fifty_digits.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::equations_test {
 namespace {
 
 Scene symmetric_scene(double h, double f, double nu, double R, double xs) {
@@ -206,4 +206,4 @@ TEST(LinearSystem, is_solved_with_pivots) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::equations_test

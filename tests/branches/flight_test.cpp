@@ -8,7 +8,7 @@
 #include "math/dual.hpp"
 #include "math/fifty_digits.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::flight_test {
 namespace {
 
 /// The numbers of a scene that a flight depends on.
@@ -145,4 +145,4 @@ TEST(Flight, has_the_derivatives_of_differences_near_resonance) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::flight_test

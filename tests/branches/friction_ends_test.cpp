@@ -15,7 +15,7 @@
 #include "branches/branch.hpp"
 #include "branches/measures/measures.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::friction_ends_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -251,4 +251,4 @@ TEST(EndsUnderFriction, are_explained_in_plain_scenes) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::friction_ends_test

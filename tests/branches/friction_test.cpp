@@ -13,7 +13,7 @@
 #include "branches/measures/measures.hpp"
 #include "branches/measures/moving.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::friction_test {
 namespace {
 
 using std::numbers::pi;
@@ -241,4 +241,4 @@ TEST(Branches, refuse_what_friction_makes_of_a_start) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::friction_test

@@ -10,7 +10,7 @@
 #include "support/loose_scenes.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::housing_multipliers_test {
 namespace {
 
 /// Their product is e^(-2hT) and R^2 of each impact. Beside one beyond 4.5e15, next to a graze, others have no digits.
@@ -38,4 +38,4 @@ TEST(HousingMultipliers, have_the_product_of_all_losses_or_none) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::housing_multipliers_test

@@ -21,7 +21,7 @@
 #include "support/loose_scenes.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::housing_test {
 namespace {
 
 using std::numbers::pi;
@@ -333,4 +333,4 @@ TEST(Housing, has_the_harmonic_and_the_power_of_runs) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::housing_test

@@ -8,7 +8,7 @@
 #include "point/point.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::machine_branch_test {
 namespace {
 
 /// A machine between rigid or soft stops.
@@ -98,4 +98,4 @@ TEST(MachineBranch, begins_at_a_finite_value) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::machine_branch_test

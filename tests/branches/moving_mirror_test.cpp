@@ -13,7 +13,7 @@
 #include "support/loose_scenes.hpp"
 #include "support/random.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::moving_mirror_test {
 namespace {
 
 /// A damper on a spring that is pressed by a load; its motion loses its symmetry twice along the stiffness.
@@ -114,4 +114,4 @@ TEST(MovingMirror, is_lost_beside_stops_unless_spring_and_load_change_alike) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::moving_mirror_test

@@ -11,7 +11,7 @@
 #include "branches/symmetric_motion.hpp"
 #include "point/point.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::resting_test {
 namespace {
 
 /// Rests on both stops in every period below nu = 0.4666; above it the chatters don't end before the release.
@@ -245,4 +245,4 @@ TEST(RestingBranch, goes_on_beyond_its_grazes) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::resting_test

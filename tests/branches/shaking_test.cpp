@@ -17,7 +17,7 @@
 #include "point/point.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::shaking_test {
 namespace {
 
 point::Problem problem_of(double k, double f, const Shaking& shaking) {
@@ -242,4 +242,4 @@ TEST(Shaken, stops_and_base_are_not_varied_at_once) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::shaking_test

@@ -13,7 +13,7 @@
 #include "branches/special_values.hpp"
 #include "support/soft_scene.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::soft_curve_test {
 namespace {
 
 struct Curve {
@@ -162,4 +162,4 @@ TEST(SoftCurve, of_random_scenes_keeps_its_equation) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::soft_curve_test

@@ -17,7 +17,7 @@
 #include "support/soft_scene.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::soft_measures_test {
 namespace {
 
 /// A run of the simulator over one period of a motion.
@@ -233,4 +233,4 @@ TEST(SoftMeasures, of_the_pressed_response_are_those_of_a_forced_oscillator) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::soft_measures_test

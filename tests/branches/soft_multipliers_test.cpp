@@ -16,7 +16,7 @@
 #include "support/runs.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::soft_multipliers_test {
 namespace {
 
 /// A state after a whole period.
@@ -151,4 +151,4 @@ TEST(SoftMultipliers, between_shaken_overdamped_stops_are_those_of_fifty_digits)
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::soft_multipliers_test

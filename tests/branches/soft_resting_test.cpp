@@ -15,7 +15,7 @@
 #include "support/soft_scene.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::soft_resting_test {
 namespace {
 
 constexpr double rigid = std::numeric_limits<double>::infinity();
@@ -173,4 +173,4 @@ TEST(SoftResting, is_not_reached_through_a_graze) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::soft_resting_test

@@ -20,7 +20,7 @@
 #include "support/soft_scene.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::soft_test {
 namespace {
 
 /// A run of the integrator over one period of a motion, with its derivative.
@@ -243,4 +243,4 @@ TEST(SoftBranch, with_two_contacts_may_end_on_free_motion) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::soft_test

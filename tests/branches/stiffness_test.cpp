@@ -14,7 +14,7 @@
 #include "branches/symmetric_motion.hpp"
 #include "point/point.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::stiffness_test {
 namespace {
 
 using std::numbers::pi;
@@ -238,4 +238,4 @@ TEST(Branch, says_why_it_cannot_begin) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::stiffness_test

@@ -8,7 +8,7 @@
 #include "results/dataset.hpp"
 #include "sweep/run.hpp"
 
-namespace clatter::branches {
+namespace clatter::branches::text_variables_test {
 namespace {
 
 void add_texts(const results::Dataset& dataset, std::set<std::string>& names) {
@@ -29,4 +29,4 @@ TEST(TextVariables, are_those_that_runs_and_branches_write) {
 }
 
 }  // namespace
-}  // namespace clatter::branches
+}  // namespace clatter::branches::text_variables_test

@@ -8,7 +8,7 @@
 #include "certificates/recorded_motion.hpp"
 #include "certified_run.hpp"
 
-namespace clatter::certificates {
+namespace clatter::certificates::certified_point_test {
 namespace {
 
 using Kind = motion::Event::Kind;
@@ -104,4 +104,4 @@ TEST(CertifiedPoint, a_transient_that_ends_within_a_chatter_has_no_claim) {
 }
 
 }  // namespace
-}  // namespace clatter::certificates
+}  // namespace clatter::certificates::certified_point_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clatter::certificates {
+namespace clatter::certificates::growth_test {
 namespace {
 
 TEST(Growth, rounding_that_enters_after_a_contraction_is_stretched_by_the_rest_alone) {
@@ -35,4 +35,4 @@ TEST(Growth, a_rest_forgets_all) {
 }
 
 }  // namespace
-}  // namespace clatter::certificates
+}  // namespace clatter::certificates::growth_test

@@ -4,7 +4,7 @@
 
 #include "certified_run.hpp"
 
-namespace clatter::certificates {
+namespace clatter::certificates::housing_motion_test {
 namespace {
 
 using Kind = motion::Event::Kind;
@@ -93,4 +93,4 @@ TEST(CertifiedInHousing, a_run_from_the_stated_start_has_the_claimed_events) {
 }
 
 }  // namespace
-}  // namespace clatter::certificates
+}  // namespace clatter::certificates::housing_motion_test

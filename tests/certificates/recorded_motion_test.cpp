@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace clatter::certificates {
+namespace clatter::certificates::recorded_motion_test {
 namespace {
 
 using Kind = motion::Event::Kind;
@@ -61,4 +61,4 @@ TEST(Events, without_force_at_a_soft_stop_there_is_none) {
 }
 
 }  // namespace
-}  // namespace clatter::certificates
+}  // namespace clatter::certificates::recorded_motion_test

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace clatter::certificates {
+namespace clatter::certificates::sample_test {
 namespace {
 
 TEST(Sample, is_spread_evenly_from_the_first_to_the_last) {
@@ -30,4 +30,4 @@ TEST(Sample, has_no_item_twice) {
 }
 
 }  // namespace
-}  // namespace clatter::certificates
+}  // namespace clatter::certificates::sample_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clatter::config {
+namespace clatter::config::config_diff_test {
 namespace {
 
 const std::string ours = "title = \"a\"\n[scene]\nxs = 2\n[sweep]\nnu = 1\nR = 0.5\n";
@@ -26,4 +26,4 @@ TEST(ConfigDiff, tells_an_order_that_differs_and_the_number_of_further_lines) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::config_diff_test

@@ -7,7 +7,7 @@
 #include "config/written_config.hpp"
 #include "storage/error.hpp"
 
-namespace clatter::config {
+namespace clatter::config::config_reader_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -265,4 +265,4 @@ TEST(RunInChild, keeps_from_toml_the_texts_it_does_not_survive) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::config_reader_test

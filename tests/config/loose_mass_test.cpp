@@ -1,7 +1,7 @@
 #include "config/wrong_table.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::config {
+namespace clatter::config::loose_mass_test {
 namespace {
 
 const std::string carried = "[scene]\nf = 1\nloose_mass = 0.1\nloose_gap = 2\n";
@@ -81,4 +81,4 @@ TEST(LooseMass, is_in_the_complete_text_only_if_there_is_one) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::loose_mass_test

@@ -9,7 +9,7 @@
 #include "config/wrong_table.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::config {
+namespace clatter::config::machine_test {
 namespace {
 
 const std::string machine = "[machine]\nmass = 0.5\nstiffness = 12.8e3\ngap = 4e-3\n";  // four lines
@@ -281,4 +281,4 @@ TEST(Machine, a_frequency_of_nothing_is_warned_of) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::machine_test

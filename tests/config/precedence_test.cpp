@@ -5,7 +5,7 @@
 
 #include "config/written_config.hpp"
 
-namespace clatter::config {
+namespace clatter::config::precedence_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -171,4 +171,4 @@ TEST(Precedence, nothing_is_noted_if_nothing_gives_way) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::precedence_test

@@ -7,7 +7,7 @@
 
 #include "config/config_error.hpp"
 
-namespace clatter::config {
+namespace clatter::config::reading_test {
 namespace {
 
 Reading read(std::string_view text) { return parse_reading({text, {.source = "--where"}}); }
@@ -60,4 +60,4 @@ TEST(Reading, is_refused_where_its_unit_does_not_fit) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::reading_test

@@ -6,7 +6,7 @@
 #include "config/wrapped.hpp"
 #include "config/written_config.hpp"
 
-namespace clatter::config {
+namespace clatter::config::reference_test {
 namespace {
 
 /// The configuration of an example, with stops if it has none and no loose mass, and something observed.
@@ -59,4 +59,4 @@ TEST(Wrapped, breaks_at_blanks_before_the_81st_column) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::reference_test

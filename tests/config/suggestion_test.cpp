@@ -2,7 +2,7 @@
 
 #include "config/wrong_table.hpp"
 
-namespace clatter::config {
+namespace clatter::config::suggestion_test {
 namespace {
 
 TEST(Comma, in_a_number_is_told_from_a_list) {
@@ -75,4 +75,4 @@ TEST(Axis, of_another_section_is_none) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::suggestion_test

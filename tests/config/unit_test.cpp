@@ -9,7 +9,7 @@
 
 #include "config/unit_hint.hpp"
 
-namespace clatter::config {
+namespace clatter::config::unit_test {
 namespace {
 
 /// A value in a written unit, in SI; NaN if the unit isn't one or doesn't fit.
@@ -134,4 +134,4 @@ TEST(UnitHint, is_silent_where_nothing_known_fits) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::unit_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace clatter::config {
+namespace clatter::config::value_grammar_test {
 namespace {
 
 using std::numbers::pi;
@@ -134,4 +134,4 @@ TEST(Mistake, is_found_at_its_column) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::value_grammar_test

@@ -5,7 +5,7 @@
 #include "config/config_text.hpp"
 #include "config/written_config.hpp"
 
-namespace clatter::config {
+namespace clatter::config::warnings_test {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -263,4 +263,4 @@ TEST(Warnings, are_none_if_every_default_is_written) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::warnings_test

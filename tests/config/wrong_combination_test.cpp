@@ -1,6 +1,6 @@
 #include "config/wrong_table.hpp"
 
-namespace clatter::config {
+namespace clatter::config::wrong_combination_test {
 namespace {
 
 const std::string both = "[scene]\nxs = 1\n[sweep]\nnu = [1, 2]\n";
@@ -263,4 +263,4 @@ TEST(Together, sizes_are_bounded) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::wrong_combination_test

@@ -6,7 +6,7 @@
 #include "config/value_grammar.hpp"
 #include "config/written_config.hpp"
 
-namespace clatter::config {
+namespace clatter::config::wrong_config_test {
 namespace {
 
 /// A configuration that is right but for its fourth line, which stands in the section.
@@ -227,4 +227,4 @@ TEST(EveryAxis, is_checked_like_the_scene) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::wrong_config_test

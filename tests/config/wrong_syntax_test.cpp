@@ -1,6 +1,6 @@
 #include "config/wrong_table.hpp"
 
-namespace clatter::config {
+namespace clatter::config::wrong_syntax_test {
 namespace {
 
 TEST(Toml, syntax_errors_have_a_place) {
@@ -80,4 +80,4 @@ TEST(Ini, comments_and_quotes_are_told_from_text) {
 }
 
 }  // namespace
-}  // namespace clatter::config
+}  // namespace clatter::config::wrong_syntax_test

@@ -13,7 +13,7 @@
 #include "support/random.hpp"
 #include "support/scene_range.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::arcs_test {
 namespace {
 
 struct ArcScene {
@@ -92,4 +92,4 @@ TEST(Arcs, keep_the_phase_of_the_free_motion_over_a_million_turns) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::arcs_test

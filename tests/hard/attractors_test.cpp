@@ -17,7 +17,7 @@
 #include "support/runs.hpp"
 #include "support/scene_range.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::attractors_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
@@ -218,4 +218,4 @@ TEST(Attractors, no_shortcut_ends_on_another_motion_between_soft_stops) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::attractors_test

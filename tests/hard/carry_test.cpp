@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace clatter::hard {
+namespace clatter::hard::carry_test {
 namespace {
 
 using Kind = CarryEvent::Kind;
@@ -203,4 +203,4 @@ TEST(Carry, keeps_the_energy_of_elastic_impacts) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::carry_test

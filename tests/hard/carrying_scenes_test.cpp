@@ -19,7 +19,7 @@
 #include "hard/slide_match.hpp"
 #include "point/point_run.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::carrying_scenes_test {
 namespace {
 
 using Kind = SlideEvent::Kind;
@@ -311,4 +311,4 @@ TEST(CarryingScenes, are_told_event_by_event_as_taylor_series_tell_them) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::carrying_scenes_test

@@ -5,7 +5,7 @@
 #include "hard/measure.hpp"
 #include "sweep/figures.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::chaos_test {
 namespace {
 
 TEST(Chaos, agrees_with_fifty_digits_while_it_remembers_its_start) { expect_agreement("chaos"); }
@@ -22,4 +22,4 @@ TEST(Chaos, is_labelled_aperiodic_and_has_one_set_of_bits) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::chaos_test

@@ -6,7 +6,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::chatter_and_rest_test {
 namespace {
 
 TEST(ChatterAndRest, agrees_with_fifty_digits) { expect_agreement("chatter_and_rest"); }
@@ -28,4 +28,4 @@ TEST(ChatterAndRest, has_its_known_times) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::chatter_and_rest_test

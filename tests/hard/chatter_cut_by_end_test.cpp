@@ -6,7 +6,7 @@
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::chatter_cut_by_end_test {
 namespace {
 
 TEST(ChatterCutByEnd, agrees_with_fifty_digits) { expect_agreement("chatter_cut_by_end"); }
@@ -44,4 +44,4 @@ TEST(ChatterCutByEnd, leaves_the_motion_after_it_as_it_is) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::chatter_cut_by_end_test

@@ -4,7 +4,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::chatter_under_fast_force_test {
 namespace {
 
 TEST(ChatterUnderFastForce, agrees_with_fifty_digits) { expect_agreement("chatter_under_fast_force"); }
@@ -18,4 +18,4 @@ TEST(ChatterUnderFastForce, is_not_completed_while_the_force_turns_round) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::chatter_under_fast_force_test

@@ -6,7 +6,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::close_stops_test {
 namespace {
 
 TEST(CloseStops, agrees_with_fifty_digits) {
@@ -33,4 +33,4 @@ TEST(CloseStops, are_hit_one_after_the_other_with_R_times_the_speed) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::close_stops_test

@@ -6,7 +6,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::damping_test {
 namespace {
 
 TEST(Damping, agrees_with_fifty_digits) { expect_agreement("damping"); }
@@ -26,4 +26,4 @@ TEST(Damping, goes_through_its_critical_value_without_a_step) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::damping_test

@@ -10,7 +10,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::dry_friction_test {
 namespace {
 
 using accuracy::Event;
@@ -76,4 +76,4 @@ TEST(DryFriction, leaves_a_mass_off_the_stop_that_it_chatters_on_if_its_static_l
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::dry_friction_test

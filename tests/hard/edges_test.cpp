@@ -6,7 +6,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::edges_test {
 namespace {
 
 TEST(Edges, agrees_with_fifty_digits) { expect_agreement("edges"); }
@@ -40,4 +40,4 @@ TEST(Edges, at_rest_it_leaves_when_pulled) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::edges_test

@@ -10,7 +10,7 @@
 #include "hard/slide_match.hpp"
 #include "point/exact_motion.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::friction_edges_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
@@ -67,4 +67,4 @@ TEST(FrictionEdges, a_reversal_at_a_section_is_told) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::friction_edges_test

@@ -7,7 +7,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::graze_from_rest_test {
 namespace {
 
 TEST(GrazeFromRest, agrees_with_fifty_digits) { expect_agreement("graze_from_rest"); }
@@ -31,4 +31,4 @@ TEST(GrazeFromRest, a_miss_by_1e_12_is_a_miss) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::graze_from_rest_test

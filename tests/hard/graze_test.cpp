@@ -8,7 +8,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::graze_test {
 namespace {
 
 TEST(Graze, agrees_with_fifty_digits) { expect_agreement("graze"); }
@@ -40,4 +40,4 @@ TEST(Graze, a_miss_by_1e_12_is_a_miss_ten_thousand_times) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::graze_test

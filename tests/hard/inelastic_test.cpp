@@ -7,7 +7,7 @@
 #include "hard/measure.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::inelastic_test {
 namespace {
 
 TEST(Inelastic, agrees_with_fifty_digits) { expect_agreement("inelastic"); }
@@ -29,4 +29,4 @@ TEST(Inelastic, repeats_after_exactly_one_forcing_period) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::inelastic_test

@@ -6,7 +6,7 @@
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::last_instant_test {
 namespace {
 
 TEST(LastInstant, agrees_with_fifty_digits) { expect_agreement("last_instant"); }
@@ -35,4 +35,4 @@ TEST(LastInstant, is_not_taken_again_by_the_run_that_goes_on) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::last_instant_test

@@ -9,7 +9,7 @@
 #include "hard/measure.hpp"
 #include "steady/find_steady.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::long_test {
 namespace {
 
 /// Records the extreme speeds at contacts and the time of the last one.
@@ -71,4 +71,4 @@ TEST(Long, ten_million_forcing_periods_keep_the_phase) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::long_test

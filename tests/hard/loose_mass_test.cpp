@@ -13,7 +13,7 @@
 #include "support/loose_scenes.hpp"
 #include "support/random.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::loose_mass_test {
 namespace {
 
 CarryScene any_scene(support::Random random) {
@@ -67,4 +67,4 @@ TEST(LooseMass, of_any_scene_moves_as_a_simulation_by_series_does) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::loose_mass_test

@@ -7,7 +7,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::near_elastic_chatter_test {
 namespace {
 
 TEST(NearElasticChatter, agrees_with_fifty_digits) {
@@ -51,4 +51,4 @@ TEST(NearElasticChatter, ends_where_the_sum_of_its_flights_says) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::near_elastic_chatter_test

@@ -4,10 +4,10 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::no_spring_test {
 namespace {
 
 TEST(NoSpring, agrees_with_fifty_digits) { expect_agreement("no_spring"); }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::no_spring_test

@@ -8,7 +8,7 @@
 #include "hard/penetration.hpp"
 #include "hard/tally.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::penetration_test {
 namespace {
 
 TEST(SoftProperties, no_stop_is_pressed_deeper_than_the_energy_allows) {
@@ -29,4 +29,4 @@ TEST(SoftProperties, no_stop_is_pressed_deeper_than_the_energy_allows) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::penetration_test

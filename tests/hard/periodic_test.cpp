@@ -13,7 +13,7 @@
 #include "hard/tally.hpp"
 #include "observables/harmonics/exact_harmonics.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::periodic_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -150,4 +150,4 @@ TEST(Properties, harmonics_of_a_periodic_motion_follow_from_its_impacts) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::periodic_test

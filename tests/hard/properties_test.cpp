@@ -17,7 +17,7 @@
 #include "observables/extremes/extrema_observer.hpp"
 #include "observables/samples/samples.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::properties_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -331,4 +331,4 @@ TEST_P(MotionProperties, symmetries_hold_bit_for_bit) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::properties_test

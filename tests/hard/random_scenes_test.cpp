@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 #include "support/scene_range.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::random_scenes_test {
 namespace {
 
 /// A random scene: damping from none to heavy, two stops with a restitution each, a load in half of the scenes, in a
@@ -74,4 +74,4 @@ TEST_P(RandomScenes, agree_with_fifty_digits_in_every_impact_and_rest) {
 INSTANTIATE_TEST_SUITE_P(Quarter, RandomScenes, testing::Range<std::uint64_t>(0, 4));
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::random_scenes_test

@@ -6,7 +6,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::resonance_test {
 namespace {
 
 TEST(Resonance, agrees_with_fifty_digits) { expect_agreement("resonance"); }
@@ -28,4 +28,4 @@ TEST(Resonance, grows_as_its_closed_form_and_is_approached_continuously) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::resonance_test

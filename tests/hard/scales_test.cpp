@@ -6,7 +6,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::scales_test {
 namespace {
 
 TEST(Scales, agrees_with_fifty_digits) {
@@ -26,4 +26,4 @@ TEST(Scales, a_vanishing_force_is_no_force) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::scales_test

@@ -5,7 +5,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::second_contact_test {
 namespace {
 
 TEST(SecondContact, agrees_with_fifty_digits) { expect_agreement("second_contact"); }
@@ -27,4 +27,4 @@ TEST(SecondContact, follows_every_release) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::second_contact_test

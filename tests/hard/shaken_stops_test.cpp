@@ -4,10 +4,10 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::shaken_stops_test {
 namespace {
 
 TEST(ShakenStops, agrees_with_fifty_digits) { expect_agreement("shaken_stops"); }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::shaken_stops_test

@@ -9,7 +9,7 @@
 #include "hard/tally.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::shaken_test {
 namespace {
 
 /// A random scene with shaken stops or a shaken base; every other one has soft stops.
@@ -52,4 +52,4 @@ TEST(ShakenProperties, motion_seen_from_the_ground_obeys_the_forces_there) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::shaken_test

@@ -14,7 +14,7 @@
 
 #include "hard/first_fall.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::slide_test {
 namespace {
 
 using Kind = SlideEvent::Kind;
@@ -277,4 +277,4 @@ TEST(Slide, reverses_with_the_quotient_of_the_accelerations_in_the_determinant) 
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::slide_test

@@ -11,7 +11,7 @@
 #include "stepping/dormand_prince.hpp"
 #include "support/methods.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::sliding_methods_test {
 namespace {
 
 using accuracy::Event;
@@ -46,4 +46,4 @@ TEST(SlidingScenes, stick_and_rest_by_dopri5_as_they_do_exactly) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::sliding_methods_test

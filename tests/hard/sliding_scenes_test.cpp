@@ -15,7 +15,7 @@
 #include "point/exact_motion.hpp"
 #include "point/point.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::sliding_scenes_test {
 namespace {
 
 using Kind = SlideEvent::Kind;
@@ -189,4 +189,4 @@ TEST(SlidingScenes, are_told_event_by_event_as_taylor_series_tell_them) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::sliding_scenes_test

@@ -4,10 +4,10 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::soft_stops_test {
 namespace {
 
 TEST(SoftStops, agrees_with_fifty_digits) { expect_agreement("soft_stops"); }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::soft_stops_test

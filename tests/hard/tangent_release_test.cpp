@@ -6,7 +6,7 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::tangent_release_test {
 namespace {
 
 TEST(TangentRelease, agrees_with_fifty_digits) { expect_agreement("tangent_release"); }
@@ -32,4 +32,4 @@ TEST(TangentRelease, a_force_that_just_touches_neither_holds_nor_lets_go) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::tangent_release_test

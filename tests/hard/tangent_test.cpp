@@ -7,7 +7,7 @@
 #include "hard/tally.hpp"
 #include "math/fifty_digits.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::tangent_test {
 namespace {
 
 /// Whether a motion has a derivative with respect to its start, and few enough impacts to be run in 50 digits.
@@ -78,4 +78,4 @@ TEST(Properties, tangent_map_is_the_derivative_of_the_motion) {
 }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::tangent_test

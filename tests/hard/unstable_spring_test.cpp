@@ -4,10 +4,10 @@
 
 #include "hard/measure.hpp"
 
-namespace clatter::hard {
+namespace clatter::hard::unstable_spring_test {
 namespace {
 
 TEST(UnstableSpring, agrees_with_fifty_digits) { expect_agreement("unstable_spring"); }
 
 }  // namespace
-}  // namespace clatter::hard
+}  // namespace clatter::hard::unstable_spring_test

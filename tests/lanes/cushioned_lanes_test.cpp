@@ -8,7 +8,7 @@
 #include "lanes/alike.hpp"
 #include "lanes/lane_run.hpp"
 
-namespace clatter::lanes {
+namespace clatter::lanes::cushioned_lanes_test {
 namespace {
 
 /// Every test, for every instruction set that this machine has.
@@ -197,4 +197,4 @@ INSTANTIATE_TEST_SUITE_P(Of, CushionedLanes,
                          [](const auto& of) { return std::string(name_of(of.param)); });
 
 }  // namespace
-}  // namespace clatter::lanes
+}  // namespace clatter::lanes::cushioned_lanes_test

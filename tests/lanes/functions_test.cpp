@@ -7,7 +7,7 @@
 #include "lanes/vector.hpp"
 #include "math/bernstein.hpp"
 
-namespace clatter::lanes {
+namespace clatter::lanes::functions_test {
 namespace {
 
 using V = Pair<xsimd::sse2>;
@@ -121,4 +121,4 @@ TEST(LaneFunctions, nothing_passes_without_time) {
 }
 
 }  // namespace
-}  // namespace clatter::lanes
+}  // namespace clatter::lanes::functions_test

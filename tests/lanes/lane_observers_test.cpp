@@ -13,7 +13,7 @@
 #include "support/deviation.hpp"
 #include "support/random.hpp"
 
-namespace clatter::lanes {
+namespace clatter::lanes::lane_observers_test {
 namespace {
 
 /// Unequal stops under a load, away from grazes of its own.
@@ -146,4 +146,4 @@ INSTANTIATE_TEST_SUITE_P(Of, LaneWatch,
                          [](const auto& of) { return std::string(name_of(of.param)); });
 
 }  // namespace
-}  // namespace clatter::lanes
+}  // namespace clatter::lanes::lane_observers_test

@@ -9,7 +9,7 @@
 #include "hard/any_scene.hpp"
 #include "sweep/two_runs.hpp"
 
-namespace clatter::lanes {
+namespace clatter::lanes::lanes_bits_test {
 namespace {
 
 /// Motion of all kinds, with every observable of lanes.
@@ -118,4 +118,4 @@ TEST(LaneBits, are_the_same_by_avx2_and_avx512_which_both_fuse_products_and_sums
 }
 
 }  // namespace
-}  // namespace clatter::lanes
+}  // namespace clatter::lanes::lanes_bits_test

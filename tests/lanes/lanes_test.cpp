@@ -5,7 +5,7 @@
 #include "lanes/alike.hpp"
 #include "support/scene_range.hpp"
 
-namespace clatter::lanes {
+namespace clatter::lanes::lanes_test {
 namespace {
 
 /// Every test, for every instruction set that this machine has.
@@ -224,4 +224,4 @@ INSTANTIATE_TEST_SUITE_P(Of, InLanes,
                          [](const auto& of) { return std::string(name_of(of.param)); });
 
 }  // namespace
-}  // namespace clatter::lanes
+}  // namespace clatter::lanes::lanes_test

@@ -18,7 +18,7 @@
 #include "scene/stops.hpp"
 #include "support/random.hpp"
 
-namespace clatter::lanes {
+namespace clatter::lanes::number_types_test {
 namespace {
 
 using V = Pair<xsimd::sse2>;
@@ -176,7 +176,7 @@ TEST(OnePhysics, guesses_of_a_first_root_and_of_a_least_value) {
 TEST(OnePhysics, restitution) {
   expect_one_physics<2>([](const auto& in) {
     const Restitution<NumberOf<std::decay_t<decltype(in)>>> law{in[0]};
-    return Results{{exact(law.after(in[1])), exact(law.jump(in[1])), exact(law.derivative())}};
+    return Results{{exact(law.after(in[1])), exact(law.jump(in[1])), exact(law.derivative(in[1]))}};
   });
 }
 
@@ -193,4 +193,4 @@ TEST(OnePhysics, jumps_of_the_velocity_times_the_harmonics) {
 }
 
 }  // namespace
-}  // namespace clatter::lanes
+}  // namespace clatter::lanes::number_types_test

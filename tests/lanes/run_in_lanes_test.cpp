@@ -10,7 +10,7 @@
 
 #include "sweep/figures.hpp"
 
-namespace clatter::lanes {
+namespace clatter::lanes::run_in_lanes_test {
 namespace {
 
 point::WorkItem item_of(const point::Problem& scene) { return {0, 0, scene, effects_of(scene)}; }
@@ -193,4 +193,4 @@ TEST(LanePoints, of_chaotic_motion_have_a_section_within_the_window) {
 }
 
 }  // namespace
-}  // namespace clatter::lanes
+}  // namespace clatter::lanes::run_in_lanes_test

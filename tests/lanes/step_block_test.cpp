@@ -14,7 +14,7 @@
 #include "support/deviation.hpp"
 #include "support/random.hpp"
 
-namespace clatter::lanes {
+namespace clatter::lanes::step_block_test {
 namespace {
 
 constexpr double pi_ = std::numbers::pi;
@@ -333,4 +333,4 @@ INSTANTIATE_TEST_SUITE_P(Of, LaneSteps,
                          [](const auto& of) { return std::string(name_of(of.param)); });
 
 }  // namespace
-}  // namespace clatter::lanes
+}  // namespace clatter::lanes::step_block_test

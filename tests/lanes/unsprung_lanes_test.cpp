@@ -4,7 +4,7 @@
 
 #include "lanes/alike.hpp"
 
-namespace clatter::lanes {
+namespace clatter::lanes::unsprung_lanes_test {
 namespace {
 
 /// Every test, for every instruction set that this machine has.
@@ -97,4 +97,4 @@ INSTANTIATE_TEST_SUITE_P(Of, UnsprungLanes,
                          [](const auto& of) { return std::string(name_of(of.param)); });
 
 }  // namespace
-}  // namespace clatter::lanes
+}  // namespace clatter::lanes::unsprung_lanes_test

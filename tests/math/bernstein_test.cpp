@@ -8,7 +8,7 @@
 
 #include "support/random.hpp"
 
-namespace clatter {
+namespace clatter::bernstein_test {
 inline namespace math {
 namespace {
 
@@ -223,4 +223,4 @@ TEST(Bernstein, split_off_at_an_end_leaves_a_point) {
 
 }  // namespace
 }  // namespace math
-}  // namespace clatter
+}  // namespace clatter::bernstein_test

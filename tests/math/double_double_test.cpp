@@ -13,7 +13,7 @@
 #include "math/fifty_digits.hpp"
 #include "support/random.hpp"
 
-namespace clatter {
+namespace clatter::double_double_test {
 namespace {
 
 FiftyDigits exact(const DoubleDouble& x) { return FiftyDigits(x.high()) + FiftyDigits(x.low()); }
@@ -126,4 +126,4 @@ TEST(DoubleDouble, ReachesInfinityWithoutNaN) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::double_double_test

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-namespace clatter {
+namespace clatter::dual_test {
 namespace {
 
 using First = Dual<double, 2>;
@@ -70,4 +70,4 @@ TEST(Dual, is_compared_by_its_value) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::dual_test

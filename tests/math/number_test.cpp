@@ -4,7 +4,7 @@
 
 #include "math/fifty_digits.hpp"
 
-namespace clatter {
+namespace clatter::number_test {
 inline namespace math {
 namespace {
 
@@ -38,4 +38,4 @@ TEST(Number, sine_and_cosine_agree_with_fifty_digits) {
 
 }  // namespace
 }  // namespace math
-}  // namespace clatter
+}  // namespace clatter::number_test

@@ -10,7 +10,7 @@
 
 #include "support/random.hpp"
 
-namespace clatter {
+namespace clatter::wide_float_test {
 namespace {
 
 using Exact = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<150>, boost::multiprecision::et_off>;
@@ -139,4 +139,4 @@ TEST(WideFloat, ReachesInfinityAndNaNAsDoublesDo) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::wide_float_test

@@ -9,7 +9,7 @@
 #include "motion/arc_bounds.hpp"
 #include "support/motion.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::arc_test {
 namespace {
 
 std::vector<Oscillator> oscillators() {
@@ -153,4 +153,4 @@ TEST(Arc, the_rest_of_a_transient_is_known_far_below_the_rounding_of_the_whole) 
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::arc_test

@@ -8,7 +8,7 @@
 #include "motion/contact.hpp"
 #include "support/random.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::chatter_test {
 namespace {
 
 /// Time of all flights of a chatter that begins with a rebound at speed w, flight by flight in 50 digits.
@@ -136,4 +136,4 @@ TEST(Chatter, rebounds_are_compared_with_the_displacements_of_the_scene) {
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::chatter_test

@@ -4,7 +4,7 @@
 
 #include "scene/stops.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::contact_force_test {
 namespace {
 
 using Light = ArcConstants<double, Effects{Damping::light, Forcing::regular}>;
@@ -32,4 +32,4 @@ TEST(Impact, a_force_below_the_gap_never_releases) {
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::contact_force_test

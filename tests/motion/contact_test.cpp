@@ -6,7 +6,7 @@
 
 #include "motion/scenes.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::contact_test {
 namespace {
 
 TEST(Contact, grazing_contact_is_found_at_its_time_with_its_speed) {
@@ -128,4 +128,4 @@ TEST(Contact, numbers_beyond_the_range_are_not_resolved_rather_than_searched_for
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::contact_test

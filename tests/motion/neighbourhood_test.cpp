@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::neighbourhood_test {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
@@ -188,4 +188,4 @@ TEST(Ellipse, holds_the_images_and_sums_of_its_changes) {
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::neighbourhood_test

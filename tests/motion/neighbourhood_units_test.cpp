@@ -8,7 +8,7 @@
 #include "support/random.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::neighbourhood_units_test {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::infinity();
@@ -147,4 +147,4 @@ TEST(NeighbourhoodUnits, differences_grow_by_no_more_than_their_bound_and_withou
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::neighbourhood_units_test

@@ -8,7 +8,7 @@
 
 #include "support/random.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::polynomial_arc_test {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon(), pi_ = std::numbers::pi;
@@ -79,4 +79,4 @@ TEST(PolynomialArc, acceleration_keeps_the_digits_of_a_flight_shorter_than_an_ul
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::polynomial_arc_test

@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::rough_neighbourhood_test {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::infinity();
@@ -143,4 +143,4 @@ TEST(RoughNeighbourhood, does_not_hold_if_some_of_the_motions_stick) {
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::rough_neighbourhood_test

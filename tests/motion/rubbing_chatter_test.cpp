@@ -10,7 +10,7 @@
 #include "motion/first_crossing.hpp"
 #include "support/random.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::rubbing_chatter_test {
 namespace {
 
 constexpr Effects of_arcs = effect_sets::with_friction(Damping::light, Forcing::secular).arc();
@@ -118,4 +118,4 @@ TEST(RubbingChatter, is_not_summed_where_the_mass_may_stick_off_the_stop) {
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::rubbing_chatter_test

@@ -11,7 +11,7 @@
 #include "motion/tangent_map.hpp"
 #include "support/random.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::saltation_test {
 namespace {
 
 using Kind = Event::Kind;
@@ -171,4 +171,4 @@ TEST_F(Saltation, OfAnImpactOnAWallIsTheOneFormula) {  // eq. 73
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::saltation_test

@@ -14,7 +14,7 @@
 #include "support/runs.hpp"
 #include "support/scene_range.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::soft_neighbourhood_test {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::infinity();
@@ -311,4 +311,4 @@ TEST(SoftNeighbourhood, rounding_at_the_end_of_a_contact_is_that_of_the_clock) {
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::soft_neighbourhood_test

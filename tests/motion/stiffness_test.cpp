@@ -13,7 +13,7 @@
 #include "support/motion.hpp"
 #include "support/random.hpp"
 
-namespace clatter::motion {
+namespace clatter::motion::stiffness_test {
 namespace {
 
 constexpr double stiffnesses[] = {100.0, 4.0, 1e-3, 0.0, -1e-6, -1.0, -25.0};
@@ -138,4 +138,4 @@ TEST(Stiffness, contacts_of_free_flight_are_known) {
 }
 
 }  // namespace
-}  // namespace clatter::motion
+}  // namespace clatter::motion::stiffness_test

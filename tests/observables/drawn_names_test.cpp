@@ -7,7 +7,7 @@
 #include "observables/all.hpp"
 #include "scene/parameter.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::drawn_names_test {
 namespace {
 
 bool is_named(std::string_view variable, bool is_si) {
@@ -52,4 +52,4 @@ TEST(DrawnNames, constants_of_a_scene_are_lines_of_TOML_with_their_units) {
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::drawn_names_test

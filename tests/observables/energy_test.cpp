@@ -11,7 +11,7 @@
 #include "scene/response.hpp"
 #include "support/random.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::energy_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity(), pi_ = std::numbers::pi;
@@ -135,4 +135,4 @@ TEST(Energy, shows_the_energy_error_of_time_stepping) {
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::energy_test

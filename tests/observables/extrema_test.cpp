@@ -4,7 +4,7 @@
 
 #include "observables/runs.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::extrema_test {
 namespace {
 
 TEST(Extrema, without_impact_they_are_the_amplitude_of_the_forced_response) {
@@ -92,4 +92,4 @@ TEST(Extrema, of_heavily_damped_and_slow_motion_are_exact) {
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::extrema_test

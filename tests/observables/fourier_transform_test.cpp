@@ -9,7 +9,7 @@
 
 #include "support/random.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::fourier_transform_test {
 namespace {
 
 /// N samples of 0.25 + 3 cos(5 tau + 0.7) over a period.
@@ -51,4 +51,4 @@ TEST(FourierTransform, a_row_has_the_same_bits_in_either_place_and_beside_any_ot
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::fourier_transform_test

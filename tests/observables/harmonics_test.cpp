@@ -8,7 +8,7 @@
 #include "observables/contacts/impact_log_observer.hpp"
 #include "observables/runs.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::harmonics_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -142,4 +142,4 @@ TEST(Harmonics, energy_of_a_periodic_motion_balances) {
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::harmonics_test

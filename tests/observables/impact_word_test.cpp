@@ -11,7 +11,7 @@
 #include "point/point.hpp"
 #include "support/random.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::impact_word_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity(), pi_ = std::numbers::pi;
@@ -248,4 +248,4 @@ TEST(Word, of_motion_without_a_period_is_empty) {
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::impact_word_test

@@ -15,7 +15,7 @@
 #include "scene/response.hpp"
 #include "support/loose_scenes.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::multipliers_test {
 namespace {
 
 using support::loose_scene;
@@ -203,4 +203,4 @@ TEST(Multipliers, a_fixed_point_moves_to_where_the_moved_map_leads) {
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::multipliers_test

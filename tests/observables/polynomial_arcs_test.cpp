@@ -16,7 +16,7 @@
 #include "stepping/dormand_prince.hpp"
 #include "support/random.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::polynomial_arcs_test {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
@@ -226,4 +226,4 @@ TEST(PolynomialArcs, extrema_and_harmonics_come_as_near_to_the_exact_ones_as_the
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::polynomial_arcs_test

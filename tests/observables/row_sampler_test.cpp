@@ -19,7 +19,7 @@
 #include "observables/runs.hpp"
 #include "support/random.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::row_sampler_test {
 namespace {
 
 /// The motion of an oscillator at instants equally far apart: the powers of the exponential of the matrix of x, v, the
@@ -199,4 +199,4 @@ TEST(RowSampler, transforms_differ_from_exact_harmonics_by_what_is_aliased) {
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::row_sampler_test

@@ -11,7 +11,7 @@
 #include "observables/arc_of.hpp"
 #include "observables/runs.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::samples_test {
 namespace {
 
 Samples samples_of(const point::Problem& scene, std::size_t count, bool with_end, AtImpact at_impact) {
@@ -100,4 +100,4 @@ TEST(Samples, of_short_flights_are_evaluated_each) {
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::samples_test

@@ -9,7 +9,7 @@
 #include "point/point.hpp"
 #include "scene/displacement_bound.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::section_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity(), pi_ = std::numbers::pi;
@@ -135,4 +135,4 @@ TEST(Section, a_bounce_at_the_equilibrium_is_no_passage) {
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::section_test

@@ -10,7 +10,7 @@
 #include "observables/contacts/impacts_observer.hpp"
 #include "observables/runs.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::stability_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity(), ulp = std::numeric_limits<double>::epsilon();
@@ -227,4 +227,4 @@ TEST(Stability, of_a_fading_motion_underflows_in_no_number_of_periods) {
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::stability_test

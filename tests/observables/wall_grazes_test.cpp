@@ -7,7 +7,7 @@
 
 #include "support/loose_scenes.hpp"
 
-namespace clatter::observables {
+namespace clatter::observables::wall_grazes_test {
 namespace {
 
 /// Sees the flights and impacts of a run.
@@ -91,4 +91,4 @@ TEST(WallGrazes, a_wall_at_the_turning_point_of_steady_motion_takes_its_multipli
 }
 
 }  // namespace
-}  // namespace clatter::observables
+}  // namespace clatter::observables::wall_grazes_test

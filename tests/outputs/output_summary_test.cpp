@@ -10,7 +10,7 @@
 #include "storage/error.hpp"
 #include "support/temporary_directory.hpp"
 
-namespace clatter::outputs {
+namespace clatter::outputs::output_summary_test {
 namespace {
 
 /// The summary of a file that claims so many points along nu, with a configuration of three.
@@ -49,4 +49,4 @@ TEST(OutputSummary, is_refused_with_other_points) {
 }
 
 }  // namespace
-}  // namespace clatter::outputs
+}  // namespace clatter::outputs::output_summary_test

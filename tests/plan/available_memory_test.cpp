@@ -7,7 +7,7 @@
 
 #include "support/temporary_directory.hpp"
 
-namespace clatter::plan {
+namespace clatter::plan::available_memory_test {
 namespace {
 
 /// A made-up root of a file system.
@@ -123,4 +123,4 @@ TEST(MemoryLimits, are_those_of_the_machine_at_least) {
 }
 
 }  // namespace
-}  // namespace clatter::plan
+}  // namespace clatter::plan::available_memory_test

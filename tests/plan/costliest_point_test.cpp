@@ -9,7 +9,7 @@
 #include "plan/plans.hpp"
 #include "sweep/figures.hpp"
 
-namespace clatter::plan {
+namespace clatter::plan::costliest_point_test {
 namespace {
 
 point::Problem transient(const Oscillator& oscillator, double R, double v0) {
@@ -157,4 +157,4 @@ TEST(BlockState, spend_no_more_than_their_budget_within_a_forcing_period) {
 }
 
 }  // namespace
-}  // namespace clatter::plan
+}  // namespace clatter::plan::costliest_point_test

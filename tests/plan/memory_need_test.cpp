@@ -8,7 +8,7 @@
 
 #include "sweep/run.hpp"
 
-namespace clatter::plan {
+namespace clatter::plan::memory_need_test {
 namespace {
 
 /// Bytes of all values of a dataset.
@@ -148,4 +148,4 @@ TEST(Memory, of_a_merge_grows_with_the_axes_and_not_with_the_points) {
 }
 
 }  // namespace
-}  // namespace clatter::plan
+}  // namespace clatter::plan::memory_need_test

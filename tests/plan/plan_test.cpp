@@ -10,7 +10,7 @@
 #include "plan/survey.hpp"
 #include "sweep/figures.hpp"
 
-namespace clatter::plan {
+namespace clatter::plan::plan_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -259,4 +259,4 @@ TEST(Plan, of_a_shard_is_that_of_its_points) {
 }
 
 }  // namespace
-}  // namespace clatter::plan
+}  // namespace clatter::plan::plan_test

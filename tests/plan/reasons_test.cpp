@@ -9,7 +9,7 @@
 
 #include "scene/required_effects.hpp"
 
-namespace clatter::plan {
+namespace clatter::plan::reasons_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -179,4 +179,4 @@ TEST(Reasons, tell_the_saving_by_an_effect_left_out) {
 }
 
 }  // namespace
-}  // namespace clatter::plan
+}  // namespace clatter::plan::reasons_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace clatter::plan {
+namespace clatter::plan::sample_test {
 namespace {
 
 TEST(Sample, has_one_number_of_each_stretch_and_the_stretches_are_all_numbers) {
@@ -41,4 +41,4 @@ TEST(Sample, keeps_step_with_no_axis) {
 }
 
 }  // namespace
-}  // namespace clatter::plan
+}  // namespace clatter::plan::sample_test

@@ -10,7 +10,7 @@
 #include "point/point.hpp"
 #include "support/random.hpp"
 
-namespace clatter::point {
+namespace clatter::point::creep_test {
 namespace {
 
 using steady::FoundBy;
@@ -157,4 +157,4 @@ TEST(SlightFriction, has_its_slow_motion_found_by_newtons_method) {
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::creep_test

@@ -10,7 +10,7 @@
 #include "point/point.hpp"
 #include "support/random.hpp"
 
-namespace clatter::point {
+namespace clatter::point::digits_test {
 namespace {
 
 /// A scene between stops that a force presses the mass onto.
@@ -87,4 +87,4 @@ TEST(Digits, PeriodicMotionIsTheSameIn31AndIn50) {
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::digits_test

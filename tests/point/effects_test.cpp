@@ -14,7 +14,7 @@
 #include "point/point.hpp"
 #include "support/deviation.hpp"
 
-namespace clatter::point {
+namespace clatter::point::effects_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -194,4 +194,4 @@ TEST(Effects, all_are_run_in_the_complete_set) {
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::effects_test

@@ -11,7 +11,7 @@
 #include "point/resting_motion.hpp"
 #include "support/friction_scenes.hpp"
 
-namespace clatter::point {
+namespace clatter::point::friction_fifty_digits_test {
 namespace {
 
 PointResult run(const Problem& problem) {
@@ -89,4 +89,4 @@ TEST(RubbingRest, is_found_as_steady_motion) {
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::friction_fifty_digits_test

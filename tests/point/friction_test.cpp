@@ -12,7 +12,7 @@
 #include "scene/response.hpp"
 #include "support/random.hpp"
 
-namespace clatter::point {
+namespace clatter::point::friction_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
@@ -122,4 +122,4 @@ TEST(Friction, leaves_no_derivative_where_a_reversal_just_sticks_and_motion_jump
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::friction_test

@@ -9,7 +9,7 @@
 #include "support/random.hpp"
 #include "sweep/figures.hpp"
 
-namespace clatter::point {
+namespace clatter::point::grazing_orbit_test {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
@@ -102,4 +102,4 @@ TEST(GrazingOrbit, is_none_that_the_force_takes_away_from_an_inelastic_stop) {
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::grazing_orbit_test

@@ -12,7 +12,7 @@
 #include "point/point.hpp"
 #include "sweep/figures.hpp"
 
-namespace clatter::point {
+namespace clatter::point::methods_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -241,4 +241,4 @@ TEST(Methods, without_shortcuts_the_exact_method_finds_the_same_motion_by_repeti
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::methods_test

@@ -5,7 +5,7 @@
 #include "lanes/run_in_lanes.hpp"
 #include "support/random.hpp"
 
-namespace clatter::point {
+namespace clatter::point::mirror_test {
 namespace {
 
 Problem any_scene(std::uint64_t index, steady::Mode mode) {
@@ -85,4 +85,4 @@ INSTANTIATE_TEST_SUITE_P(On, Mirror,
                          [](const auto& which) { return std::string(name_of(which.param)); });
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::mirror_test

@@ -12,7 +12,7 @@
 #include "hard/any_scene.hpp"
 #include "point/point.hpp"
 
-namespace clatter::point {
+namespace clatter::point::out_of_reach_test {
 namespace {
 
 /// A damped and forced scene between stops that lie further away than the bound of its motion: by hardly anything, or
@@ -71,4 +71,4 @@ TEST(OutOfReach, a_scene_has_the_bits_of_a_run_with_its_stops) {
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::out_of_reach_test

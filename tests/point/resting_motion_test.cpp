@@ -8,7 +8,7 @@
 
 #include "point/point.hpp"
 
-namespace clatter::point {
+namespace clatter::point::resting_motion_test {
 namespace {
 
 /// A ball under gravity on a table whose acceleration is f of it, from x = 0 at v = 2.8.
@@ -61,4 +61,4 @@ TEST(RestingMotion, that_repeats_soon_is_periodic_and_motion_without_a_rest_is_n
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::resting_motion_test

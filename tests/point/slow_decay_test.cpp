@@ -7,7 +7,7 @@
 #include "point/point.hpp"
 #include "scene/response.hpp"
 
-namespace clatter::point {
+namespace clatter::point::slow_decay_test {
 namespace {
 
 Problem decaying(double nu) {
@@ -70,4 +70,4 @@ TEST(SlowDecay, is_known_at_once_in_closed_form_with_its_estimate) {
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::slow_decay_test

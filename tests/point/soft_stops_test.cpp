@@ -13,7 +13,7 @@
 #include "support/runs.hpp"
 #include "support/soft_scene.hpp"
 
-namespace clatter::point {
+namespace clatter::point::soft_stops_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -274,4 +274,4 @@ TEST(SoftStops, out_of_reach_cost_nothing) {
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::soft_stops_test

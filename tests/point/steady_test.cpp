@@ -13,7 +13,7 @@
 #include "support/random.hpp"
 #include "sweep/figures.hpp"
 
-namespace clatter::point {
+namespace clatter::point::steady_test {
 namespace {
 
 PointResult result_of(Problem scene, bool all_effects) {
@@ -173,4 +173,4 @@ TEST(Steady, free_motion_that_nobody_chose_is_that_of_a_long_run) {
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::steady_test

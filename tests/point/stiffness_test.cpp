@@ -12,7 +12,7 @@
 #include "support/random.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::point {
+namespace clatter::point::stiffness_test {
 namespace {
 
 using std::numbers::pi;
@@ -179,4 +179,4 @@ TEST(Overflow, of_an_energy_fails_a_point_as_one_of_the_motion_does) {
 }
 
 }  // namespace
-}  // namespace clatter::point
+}  // namespace clatter::point::stiffness_test

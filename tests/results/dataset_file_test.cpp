@@ -16,7 +16,7 @@
 #include "support/lookup3.hpp"
 #include "support/temporary_directory.hpp"
 
-namespace clatter::results {
+namespace clatter::results::dataset_file_test {
 namespace {
 
 class DatasetFile : public testing::Test {
@@ -347,4 +347,4 @@ TEST_F(DatasetFile, an_error_of_the_disk_comes_out_of_it_whichever_write_it_meet
 }
 
 }  // namespace
-}  // namespace clatter::results
+}  // namespace clatter::results::dataset_file_test

@@ -11,7 +11,7 @@
 #include "storage/error.hpp"
 #include "support/temporary_directory.hpp"
 
-namespace clatter::results {
+namespace clatter::results::output_place_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -136,4 +136,4 @@ TEST_F(OutputPlaceTest, a_title_is_shown_without_its_control_characters) {
 }
 
 }  // namespace
-}  // namespace clatter::results
+}  // namespace clatter::results::output_place_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clatter::results {
+namespace clatter::results::summary_bytes_test {
 namespace {
 
 TEST(SummaryBytes, give_the_summary_again_and_nothing_if_some_are_missing) {
@@ -23,4 +23,4 @@ TEST(SummaryBytes, give_the_summary_again_and_nothing_if_some_are_missing) {
 }
 
 }  // namespace
-}  // namespace clatter::results
+}  // namespace clatter::results::summary_bytes_test

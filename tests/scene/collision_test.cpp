@@ -10,7 +10,7 @@
 #include "math/fifty_digits.hpp"
 #include "support/random.hpp"
 
-namespace clatter {
+namespace clatter::collision_test {
 namespace {
 
 /// Speed with which a mass leaves a stop of stiffness 1, beginning with speed 1: x'' + 2 zeta x' + x = 0 from (0, 1) on
@@ -103,4 +103,4 @@ TEST(Collision, first_and_second_derivatives_are_those_of_differences_in_fifty_d
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::collision_test

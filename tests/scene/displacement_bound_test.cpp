@@ -10,7 +10,7 @@
 #include "motion/arc.hpp"
 #include "support/random.hpp"
 
-namespace clatter {
+namespace clatter::displacement_bound_test {
 inline namespace scene {
 namespace {
 
@@ -195,4 +195,4 @@ TEST(Transient, stays_within_its_bound_and_the_decayed_bound) {
 
 }  // namespace
 }  // namespace scene
-}  // namespace clatter
+}  // namespace clatter::displacement_bound_test

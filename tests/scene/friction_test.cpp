@@ -5,7 +5,7 @@
 #include "scene/displacement_bound.hpp"
 #include "scene/required_effects.hpp"
 
-namespace clatter {
+namespace clatter::friction_test {
 namespace {
 
 /// A force of mu whose direction always helps the mass on comes as near to the bound as one likes: at each of its turns
@@ -72,4 +72,4 @@ TEST(Friction, takes_stops_out_of_the_reach_of_a_mass_that_it_never_lets_go) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::friction_test

@@ -11,7 +11,7 @@
 #include "math/fifty_digits.hpp"
 #include "support/random.hpp"
 
-namespace clatter {
+namespace clatter::parameter_test {
 namespace {
 
 TEST(Parameter, is_found_by_its_key) {
@@ -151,4 +151,4 @@ TEST(Computed, has_the_derivatives_by_every_key_that_differences_in_fifty_digits
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::parameter_test

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace clatter {
+namespace clatter::required_effects_test {
 inline namespace scene {
 namespace {
 
@@ -213,4 +213,4 @@ TEST(RequiredEffects, damping_and_resonance_are_told_apart_at_their_borders) {
 
 }  // namespace
 }  // namespace scene
-}  // namespace clatter
+}  // namespace clatter::required_effects_test

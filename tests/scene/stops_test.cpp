@@ -7,7 +7,7 @@
 
 #include "math/fifty_digits.hpp"
 
-namespace clatter {
+namespace clatter::stops_test {
 inline namespace scene {
 namespace {
 
@@ -39,4 +39,4 @@ TEST(Restitution, lets_a_value_that_is_no_number_through) {
 
 }  // namespace
 }  // namespace scene
-}  // namespace clatter
+}  // namespace clatter::stops_test

@@ -4,7 +4,7 @@
 
 #include "steady/repeat.hpp"
 
-namespace clatter::steady {
+namespace clatter::steady::contact_at_section_test {
 namespace {
 
 constexpr double period = 5.0, h = 1e-10;  // of a time before or after an impact
@@ -90,4 +90,4 @@ TEST(RepeatFinder, forgets_the_size_of_an_early_motion) {
 }
 
 }  // namespace
-}  // namespace clatter::steady
+}  // namespace clatter::steady::contact_at_section_test

@@ -8,7 +8,7 @@
 
 #include "support/runs.hpp"
 
-namespace clatter::steady {
+namespace clatter::steady::find_steady_test {
 namespace {
 
 constexpr double pi_ = std::numbers::pi;
@@ -250,4 +250,4 @@ TEST(Repeat, a_motion_of_three_periods_is_found) {
 }
 
 }  // namespace
-}  // namespace clatter::steady
+}  // namespace clatter::steady::find_steady_test

@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::steady {
+namespace clatter::steady::free_period_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity(), ulp = std::numeric_limits<double>::epsilon();
@@ -158,4 +158,4 @@ TEST(FreePeriod, is_the_time_after_which_a_simulated_motion_returns) {
 }
 
 }  // namespace
-}  // namespace clatter::steady
+}  // namespace clatter::steady::free_period_test

@@ -8,7 +8,7 @@
 
 #include "support/random.hpp"
 
-namespace clatter::steady {
+namespace clatter::steady::repeat_test {
 namespace {
 
 struct Numbers {
@@ -70,4 +70,4 @@ TEST(RepeatFinder, SectionsAtWhichItDoesNotLookNeedOnlyBePassed) {
 }
 
 }  // namespace
-}  // namespace clatter::steady
+}  // namespace clatter::steady::repeat_test

@@ -10,7 +10,7 @@
 #include "support/random.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::steady {
+namespace clatter::steady::rounding_growth_test {
 namespace {
 
 using Integrator = stepping::Exact<double, effect_sets::complete(Damping::light, Forcing::regular)>;
@@ -65,4 +65,4 @@ TEST(RoundingGrowth, is_nothing_at_rest) {
 }
 
 }  // namespace
-}  // namespace clatter::steady
+}  // namespace clatter::steady::rounding_growth_test

@@ -7,7 +7,7 @@
 #include "support/random.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::steady {
+namespace clatter::steady::stroboscopic_map_test {
 namespace {
 
 constexpr Effects effects = effect_sets::complete(Damping::light, Forcing::regular);
@@ -210,4 +210,4 @@ TEST(StroboscopicMap, a_motion_that_leaves_the_stops_between_its_states_is_refus
 }
 
 }  // namespace
-}  // namespace clatter::steady
+}  // namespace clatter::steady::stroboscopic_map_test

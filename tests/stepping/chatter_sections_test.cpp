@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::chatter_sections_test {
 namespace {
 
 constexpr int periods = 3;
@@ -97,4 +97,4 @@ TEST(ChatterSections, a_ball_rebounds_to_its_closed_form_before_its_chatter_is_s
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::chatter_sections_test

@@ -14,7 +14,7 @@
 #include "support/friction_scenes.hpp"
 #include "support/methods.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::dormand_prince_friction_test {
 namespace {
 
 using accuracy::Event;
@@ -154,4 +154,4 @@ TEST(DormandPrinceFriction, error_falls_with_the_tolerance) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::dormand_prince_friction_test

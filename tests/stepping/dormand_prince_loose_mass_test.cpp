@@ -11,7 +11,7 @@
 #include "support/loose_scenes.hpp"
 #include "support/methods.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::dormand_prince_loose_mass_test {
 namespace {
 
 using accuracy::Event;
@@ -140,4 +140,4 @@ TEST(DormandPrinceLooseMass, a_run_that_it_cannot_complete_is_an_outcome) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::dormand_prince_loose_mass_test

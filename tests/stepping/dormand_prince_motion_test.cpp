@@ -12,7 +12,7 @@
 #include "support/methods.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::dormand_prince_motion_test {
 namespace {
 
 constexpr double pi_ = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
@@ -239,4 +239,4 @@ TEST(DormandPrinceMotion, too_short_steps_to_advance_time_are_unresolved) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::dormand_prince_motion_test

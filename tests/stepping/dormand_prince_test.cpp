@@ -12,7 +12,7 @@
 #include "support/methods.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::dormand_prince_test {
 namespace {
 
 constexpr double pi_ = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
@@ -220,4 +220,4 @@ TEST(DormandPrince, has_the_impacts_and_rests_of_the_exact_integrator) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::dormand_prince_test

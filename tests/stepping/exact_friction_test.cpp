@@ -11,7 +11,7 @@
 #include "point/point.hpp"
 #include "support/friction_scenes.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::exact_friction_test {
 namespace {
 
 using accuracy::Event;
@@ -130,4 +130,4 @@ TEST(ExactFriction, a_mass_without_speed_goes_at_the_phase_at_which_the_force_pa
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::exact_friction_test

@@ -6,7 +6,7 @@
 
 #include "support/runs.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::exact_test {
 namespace {
 
 constexpr double pi_ = std::numbers::pi;
@@ -252,4 +252,4 @@ TEST(Exact, release_at_the_edge_of_a_section_neither_hangs_nor_rests_a_turn_too_
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::exact_test

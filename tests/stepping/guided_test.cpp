@@ -13,7 +13,7 @@
 #include "stepping/run.hpp"
 #include "support/random.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::guided_test {
 namespace {
 
 constexpr Effects light = effect_sets::with_friction(Damping::light, Forcing::secular),
@@ -103,4 +103,4 @@ TEST(Guided, LeavesAGrazeToTheFullSearch) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::guided_test

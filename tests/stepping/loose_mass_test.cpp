@@ -10,7 +10,7 @@
 #include "scene/given_scene.hpp"
 #include "support/loose_scenes.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::loose_mass_test {
 namespace {
 
 using support::loose_scene, support::LooseRun, support::observed, support::run_loose;
@@ -246,4 +246,4 @@ TEST(LooseMass, the_energy_ledger_closes) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::loose_mass_test

@@ -9,7 +9,7 @@
 
 #include "stepping/exact.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::modes_test {
 namespace {
 
 constexpr std::array<const char*, 4> searched_as{"gaps", "margins", "pull", "closed form"};
@@ -65,4 +65,4 @@ TEST(Modes, AreThoseThatTheEffectsCallFor) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::modes_test

@@ -11,7 +11,7 @@
 #include "support/friction_scenes.hpp"
 #include "support/methods.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::moreau_friction_test {
 namespace {
 
 using accuracy::Event;
@@ -155,4 +155,4 @@ TEST(MoreauFriction, loses_the_work_of_friction_inside_a_soft_stop) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::moreau_friction_test

@@ -10,7 +10,7 @@
 #include "support/loose_scenes.hpp"
 #include "support/methods.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::moreau_loose_mass_test {
 namespace {
 
 using accuracy::Event;
@@ -102,4 +102,4 @@ TEST(MoreauLooseMass, more_impacts_than_allowed_is_an_outcome) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::moreau_loose_mass_test

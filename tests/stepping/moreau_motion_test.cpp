@@ -12,7 +12,7 @@
 #include "support/methods.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::moreau_motion_test {
 namespace {
 
 constexpr double pi_ = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
@@ -242,4 +242,4 @@ TEST(MoreauMotion, more_impacts_than_allowed_and_no_numbers_are_outcomes) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::moreau_motion_test

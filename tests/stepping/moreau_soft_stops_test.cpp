@@ -11,7 +11,7 @@
 #include "support/methods.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::moreau_soft_stops_test {
 namespace {
 
 point::Problem soft_scene(double zeta) {
@@ -121,4 +121,4 @@ TEST(MoreauSoftStops, a_start_within_a_stop_is_no_touch) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::moreau_soft_stops_test

@@ -13,7 +13,7 @@
 #include "support/methods.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::moreau_test {
 namespace {
 
 constexpr double pi_ = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
@@ -203,4 +203,4 @@ TEST(Moreau, an_end_within_a_period_cuts_a_step_too) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::moreau_test

@@ -8,7 +8,7 @@
 #include "math/fifty_digits.hpp"
 #include "support/runs.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::reference_test {
 namespace {
 
 struct Row {
@@ -84,4 +84,4 @@ INSTANTIATE_TEST_SUITE_P(Lists, ReferenceList, testing::Values("w2_a.json", "w2_
                          [](const auto& list) { return std::string(list.param).substr(0, 4); });
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::reference_test

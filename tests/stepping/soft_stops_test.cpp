@@ -15,7 +15,7 @@
 #include "support/scene_range.hpp"
 #include "support/soft_scene.hpp"
 
-namespace clatter::stepping {
+namespace clatter::stepping::soft_stops_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -219,4 +219,4 @@ TEST(SoftStops, an_equilibrium_exactly_on_a_stop_neither_hangs_nor_moves) {
 }
 
 }  // namespace
-}  // namespace clatter::stepping
+}  // namespace clatter::stepping::soft_stops_test

@@ -16,7 +16,7 @@
 #include "storage/error.hpp"
 #include "support/temporary_directory.hpp"
 
-namespace clatter::storage {
+namespace clatter::storage::atomic_write_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ TEST_F(AtomicWrite, asks_for_room_only_if_there_is_too_little) {
 }
 
 }  // namespace
-}  // namespace clatter::storage
+}  // namespace clatter::storage::atomic_write_test

@@ -10,7 +10,7 @@
 #include "storage/input_file.hpp"
 #include "storage/run_in_child.hpp"
 
-namespace clatter::storage {
+namespace clatter::storage::file_calls_test {
 namespace {
 
 /// Leaves no descriptor to open a file with.
@@ -64,4 +64,4 @@ TEST(ReasonAndWayOut, is_told_by_every_function_that_opens_files) {
 }
 
 }  // namespace
-}  // namespace clatter::storage
+}  // namespace clatter::storage::file_calls_test

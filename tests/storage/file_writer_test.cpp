@@ -10,7 +10,7 @@
 #include "storage/error.hpp"
 #include "support/temporary_directory.hpp"
 
-namespace clatter::storage {
+namespace clatter::storage::file_writer_test {
 namespace {
 
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
@@ -63,4 +63,4 @@ TEST(FileWriter, asks_once_for_the_room_that_a_full_disk_lacks_for_all_that_is_t
 }
 
 }  // namespace
-}  // namespace clatter::storage
+}  // namespace clatter::storage::file_writer_test

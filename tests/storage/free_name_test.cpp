@@ -8,7 +8,7 @@
 
 #include "support/temporary_directory.hpp"
 
-namespace clatter::storage {
+namespace clatter::storage::free_name_test {
 namespace {
 
 TEST(FreeName, is_the_first_that_neither_a_file_nor_a_link_nor_a_journal_has) {
@@ -35,4 +35,4 @@ TEST(FreeName, is_offered_as_a_word_of_a_shell) {
 }
 
 }  // namespace
-}  // namespace clatter::storage
+}  // namespace clatter::storage::free_name_test

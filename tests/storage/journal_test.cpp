@@ -17,7 +17,7 @@
 #include "storage/error.hpp"
 #include "support/temporary_directory.hpp"
 
-namespace clatter::storage {
+namespace clatter::storage::journal_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -279,4 +279,4 @@ TEST_F(JournalFile, that_cannot_be_looked_at_is_not_idle) {
 }
 
 }  // namespace
-}  // namespace clatter::storage
+}  // namespace clatter::storage::journal_test

@@ -14,7 +14,7 @@
 
 #include "storage/error.hpp"
 
-namespace clatter::storage {
+namespace clatter::storage::run_in_child_test {
 namespace {
 
 /// The reason why a child fails that does this work.
@@ -86,4 +86,4 @@ TEST(RunInChild, works_if_nobody_asks_for_ended_children) {
 }
 
 }  // namespace
-}  // namespace clatter::storage
+}  // namespace clatter::storage::run_in_child_test

@@ -13,7 +13,7 @@
 #include "storage/error.hpp"
 #include "support/temporary_directory.hpp"
 
-namespace clatter::storage {
+namespace clatter::storage::scratch_test {
 namespace {
 
 class ScratchTest : public testing::Test {
@@ -126,4 +126,4 @@ TEST_F(ScratchTest, an_arena_has_room_for_any_length_from_any_thread) {
 }
 
 }  // namespace
-}  // namespace clatter::storage
+}  // namespace clatter::storage::scratch_test

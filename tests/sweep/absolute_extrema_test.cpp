@@ -13,7 +13,7 @@
 #include "stepping/run.hpp"
 #include "sweep/shaken_scenes.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::absolute_extrema_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -200,4 +200,4 @@ TEST(AbsoluteExtrema, has_the_extrema_of_general_methods_to_their_error) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::absolute_extrema_test

@@ -5,7 +5,7 @@
 
 #include "sweep/figures.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::contact_meanings_test {
 namespace {
 
 point::Problem into_the_upper_stop(double v) {
@@ -101,4 +101,4 @@ TEST(Chatter, is_told_impact_by_impact_however_low_its_first_rebound_is) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::contact_meanings_test

@@ -10,7 +10,7 @@
 #include "sweep/mirror_images.hpp"
 #include "sweep/shaken_scenes.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::frame_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -305,4 +305,4 @@ TEST(AbsoluteFrame, is_named_by_the_variables_that_it_decides) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::frame_test

@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::given_digits_test {
 namespace {
 
 using boost::multiprecision::abs;
@@ -107,4 +107,4 @@ TEST(GivenDigits, decide_the_period_of_motion_that_rests) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::given_digits_test

@@ -8,7 +8,7 @@
 
 #include "sweep/shaken_scenes.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::impact_phase_test {
 namespace {
 
 using observables::LoggedImpact;
@@ -174,4 +174,4 @@ TEST(ImpactPhase, of_a_soft_stop_is_that_of_the_touch) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::impact_phase_test

@@ -3,26 +3,16 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "support/dataset.hpp"
 #include "support/random.hpp"
 #include "sweep/run.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::machine_test {
 namespace {
-
-const results::Variable& variable(const results::Dataset& dataset, const std::string& name) {
-  for (const results::Variable& one : dataset.variables)
-    if (one.name == name) return one;
-  throw std::runtime_error("no " + name);
-}
-
-const std::vector<double>& values(const results::Dataset& dataset, const std::string& name) {
-  return std::get<std::vector<double>>(variable(dataset, name).values);
-}
 
 /// A machine in SI, and units of length and time of somebody else's choice.
 struct Drawn {
@@ -122,9 +112,7 @@ TEST(Machine, is_the_scene_that_is_scaled_by_hand) {
     Drawn other = it;
     other.problem.start.displacement += 1e-12 * it.problem.stops.upper;
     const results::Dataset moved = run({.problem = scaled(other)}, {}).dataset;
-    ASSERT_EQ(std::get<std::vector<std::uint8_t>>(variable(machine, "status").values),
-              std::get<std::vector<std::uint8_t>>(variable(scene, "status").values))
-        << i;
+    ASSERT_EQ(statuses(machine), statuses(scene)) << i;
     expect_same(it, machine, scene, moved);
     impacts += values(machine, "impact_tau").size();
     ASSERT_FALSE(HasFailure()) << "machine " << i;
@@ -175,8 +163,8 @@ TEST(Machine, names_the_unit_of_every_result) {
                                                        {"x_phase", "rad"},
                                                        {"period_ratio", "1"},
                                                        {"status", "1"}};
-  for (const auto& [name, unit] : units) EXPECT_EQ(variable(dataset, name).units, unit) << name;
+  for (const auto& [name, unit] : units) EXPECT_EQ(find(dataset, name)->units, unit) << name;
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::machine_test

@@ -9,7 +9,7 @@
 #include "sweep/figures.hpp"
 #include "sweep/mirror_images.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::mirror_images_test {
 namespace {
 
 /// Starts around the origin at phases all round, of a scene with two motions.
@@ -107,4 +107,4 @@ TEST(MirrorImages, of_restored_points_are_run) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::mirror_images_test

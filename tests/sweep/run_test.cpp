@@ -12,7 +12,7 @@
 #include "support/soft_scene.hpp"
 #include "sweep/figures.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::run_test {
 namespace {
 
 TEST(Run, gives_the_same_bits_for_every_number_of_threads) {
@@ -327,4 +327,4 @@ TEST(Run, observed_time_is_described) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::run_test

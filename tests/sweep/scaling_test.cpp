@@ -3,16 +3,16 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "support/dataset.hpp"
 #include "support/random.hpp"
 #include "sweep/chains.hpp"
 #include "sweep/run.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::scaling_test {
 namespace {
 
 /// x'' + 2 h x' + k x = f sin(nu tau) between stops, with k = 1, in steady motion with impacts.
@@ -31,12 +31,6 @@ point::Problem rescaled(point::Problem scene, double rate) {
   o = {o.damping * rate, o.forcing * rate * rate, o.frequency * rate, o.load * rate * rate, rate * rate};
   scene.start.velocity *= rate, scene.time.duration /= rate;
   return scene;
-}
-
-const std::vector<double>& values(const results::Dataset& dataset, const std::string& name) {
-  for (const results::Variable& variable : dataset.variables)
-    if (variable.name == name) return std::get<std::vector<double>>(variable.values);
-  throw std::runtime_error("no " + name);
 }
 
 TEST(Scaling, unit_stiffness_leaves_every_number_alone) {
@@ -152,4 +146,4 @@ TEST(Scaling, quantities_of_a_machine_are_in_si) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::scaling_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace clatter::sweep {
+namespace clatter::sweep::scatter_test {
 namespace {
 
 std::vector<std::size_t> order_of(const auto& scatter) {
@@ -55,4 +55,4 @@ TEST(Scatter, in_slabs_does_each_at_a_time) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::scatter_test

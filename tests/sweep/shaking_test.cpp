@@ -8,7 +8,7 @@
 #include "point/point.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::shaking_test {
 namespace {
 
 /// A scene as it stands in the absolute frame: forces on the mass, and the place of what moves.
@@ -154,4 +154,4 @@ TEST(Shaking, turns_the_section_with_the_start) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::shaking_test

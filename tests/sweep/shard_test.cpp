@@ -17,7 +17,7 @@
 #include "sweep/joined.hpp"
 #include "sweep/run.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::shard_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -299,4 +299,4 @@ TEST(SavedRun, may_be_saved_while_it_is_at_work) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::shard_test

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace clatter::sweep {
+namespace clatter::sweep::sweep_test {
 namespace {
 
 constexpr Parameter nu = "nu", f = "f", xs = "xs", start_period = "start_period";
@@ -70,4 +70,4 @@ TEST(StartPeriod, follows_the_stops_whether_it_is_fixed_or_swept) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::sweep_test

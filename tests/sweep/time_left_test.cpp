@@ -8,7 +8,7 @@
 
 #include "support/random.hpp"
 
-namespace clatter::sweep {
+namespace clatter::sweep::time_left_test {
 namespace {
 
 /// The worst of what is told against the truth, as a factor, while points of such costs are run one after the other:
@@ -99,4 +99,4 @@ TEST(TimeLeft, is_nothing_at_the_end_however_soon_that_comes) {
 }
 
 }  // namespace
-}  // namespace clatter::sweep
+}  // namespace clatter::sweep::time_left_test

@@ -12,7 +12,7 @@
 
 #include "verify/stream.hpp"
 
-namespace verify {
+namespace verify::bug_test {
 namespace {
 
 std::string line_of(const std::string& name) {
@@ -92,4 +92,4 @@ TEST(Bug, leaves_no_thread) {
 }
 
 }  // namespace
-}  // namespace verify
+}  // namespace verify::bug_test

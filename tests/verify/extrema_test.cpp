@@ -5,7 +5,7 @@
 
 #include "verify/extrema.hpp"
 
-namespace verify {
+namespace verify::extrema_test {
 namespace {
 
 TEST(Extrema, are_undecided_if_a_place_is_no_number) {
@@ -18,4 +18,4 @@ TEST(Extrema, are_undecided_if_a_place_is_no_number) {
 }
 
 }  // namespace
-}  // namespace verify
+}  // namespace verify::extrema_test

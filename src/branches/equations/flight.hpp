@@ -75,7 +75,7 @@ class Flights {
   decltype(auto) with_arc(const Flight<Number>& flight, Function&& function) const {
     if (flight.leaves == Event::Kind::impact)
       return function(arc_from(towards(opposite(flight.from)), p_.position(flight.from),
-                               Number(-p_.restitution(flight.from) * flight.coordinate), flight.begin));
+                               p_.law(flight.from).after(flight.coordinate), flight.begin));
     if (halts(flight.leaves)) return function(arc_from_halt(flight));
     const motion::SoftStop<Number> stop = p_.soft_stop(flight.from);
     const Number offset =

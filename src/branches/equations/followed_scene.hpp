@@ -50,9 +50,7 @@ struct SceneNumbers : BasicScene<Number> {
   [[nodiscard]] const Number& position(Side stop) const {
     return stop == Side::upper ? this->stops.upper : this->stops.lower;
   }
-  [[nodiscard]] const Number& restitution(Side stop) const {
-    return stop == Side::upper ? this->stops.restitution_upper : this->stops.restitution_lower;
-  }
+  [[nodiscard]] Restitution<Number> law(Side stop) const { return restitution_at<Number>(this->stops, stop); }
   [[nodiscard]] motion::SoftStop<Number> soft_stop(Side stop) const {
     return motion::soft_stop_at<Number>(this->stops, stop);
   }

@@ -17,25 +17,23 @@ constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_first_axis = 3
 using First = Dual<double, most_variables>;
 using Second = Dual<First, 3>;  // of the first three, each with its derivatives by all of them
 
-/// The variable that a flight's first three derivatives belong to.
-inline Second variable(double value, std::size_t index) {
-  Second number(First(value, index), index);
-  return number;
+/// The variable that one of a flight's first three derivatives belongs to; in numbers without derivatives its value.
+template <class Number>
+Number variable(double value, std::size_t index) {
+  if constexpr (std::is_same_v<Number, double>)
+    return value;
+  else if constexpr (std::is_same_v<Number, Second>)
+    return {First(value, index), index};
+  else
+    return {value, index};
 }
 
 template <class Number>
 Flight<Number> flight_of(const Orbit& orbit, std::size_t i) {
   const OrbitEvent from = orbit.event(i), to = orbit.event(i + 1);
-  if constexpr (std::is_same_v<Number, Second>)
-    return {from.side, variable(from.phase, by_begin), variable(from.coordinate(), by_before),
-            to.side,   variable(to.phase, by_end),     from.kind,
-            to.kind};
-  else if constexpr (std::is_same_v<Number, double>)
-    return {from.side, from.phase, from.coordinate(), to.side, to.phase, from.kind, to.kind};
-  else
-    return {from.side, Number(from.phase, by_begin), Number(from.coordinate(), by_before),
-            to.side,   Number(to.phase, by_end),     from.kind,
-            to.kind};
+  return {from.side, variable<Number>(from.phase, by_begin), variable<Number>(from.coordinate(), by_before),
+          to.side,   variable<Number>(to.phase, by_end),     from.kind,
+          to.kind};
 }
 
 /// A variable that a scene's parameter is, in numbers with derivatives by it.
@@ -104,11 +102,10 @@ Link<Number> link_of_states(const Flights<Number, E>& flights, const Flight<Numb
   const SceneNumbers<Number>& p = flights.parameters();
   Link<Number> link{{{{Number(1), Number(0)}, {Number(0), Number(1)}}}, Number(1)};
   if (flight.leaves == Event::Kind::impact) {
-    const Number &R = p.restitution(flight.from), &v = flight.coordinate;
+    const Restitution<Number> law = p.law(flight.from);
+    const Number &v = flight.coordinate, &h = p.oscillator.damping, share = law.share(v), slope = law.derivative(v);
     const Number force = flights.force_at(p.position(flight.from), flight.begin);
-    link.numerator = {
-        {{-R * v, Number(0)},
-         {R * (force - 2 * p.oscillator.damping * v) + force + 2 * p.oscillator.damping * R * v, -R * v}}};
+    link.numerator = {{{-share * v, Number(0)}, {-slope * (force - 2 * h * v) + force + 2 * h * share * v, slope * v}}};
     link.denominator = v;
   } else if (flight.leaves == Event::Kind::touch) {
     link.numerator[1][0] = -2 * p.soft_stop(flight.from).damping;
@@ -160,7 +157,10 @@ Number determinant_of(const SceneNumbers<Number>& p, const Orbit& orbit) {
   if (orbit.pressed != Side::none) press(orbit.pressed, orbit.advance());
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const OrbitEvent& event = orbit.events[i];
-    if (event.kind == Event::Kind::impact) determinant *= p.restitution(event.side) * p.restitution(event.side);
+    if (event.kind == Event::Kind::impact) {
+      const Number v(event.before);
+      determinant *= -p.law(event.side).share(v) * p.law(event.side).derivative(v);
+    }
     if (presses(event.kind)) press(event.side, orbit.event(i + 1).phase - event.phase);
     if (event.kind == Event::Kind::stick) determinant = Number(0);
     if (event.kind == Event::Kind::reversal)

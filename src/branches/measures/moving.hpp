@@ -46,8 +46,8 @@ struct Moving {
 /// Energy lost in an impact, per unit mass, or on a wall per unit of the main mass (eq. 70).
 template <class Number>
 [[nodiscard]] Number lost_in_impact(const SceneNumbers<Number>& p, Side side, const Number& before, bool rests) {
-  const Number R = p.loose.ratio == 0 ? p.restitution(side) : p.loose.restitution;
-  const Number lost = rests ? Number(before * before / 2) : Number((1 - R) * (1 + R) * before * before / 2);
+  const Restitution<Number> law = p.loose.ratio == 0 ? p.law(side) : Restitution<Number>{p.loose.restitution};
+  const Number lost = rests ? Number(before * before / 2) : law.lost(before);
   return p.loose.ratio == 0 ? lost : Number(p.loose.ratio / (1 + p.loose.ratio) * lost);
 }
 /// The energy that soft stops take in one repetition of a motion.

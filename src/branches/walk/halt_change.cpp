@@ -98,9 +98,8 @@ std::optional<HaltChange> reaching(const Orbit& orbit, std::size_t halt) {
   return change;
 }
 
-/// A stick has shrunk to nothing, or the mass is released the other way sooner. A release where the push falls, or
-/// touches the level at its crest, begins a short slip, from nothing; with a static level above the kinetic one a long
-/// slip.
+/// A stick has shrunk to nothing, or is released the other way sooner. A release where the push falls, or touches the
+/// level at its crest, begins a short slip from nothing; with a static level above the kinetic one a long slip.
 HaltChange slipping(const Orbit& orbit, const FollowedScene& scene, std::size_t i, bool jumps) {
   const OrbitEvent& halt = orbit.events[i];
   const Side other = opposite(halt.side);

@@ -54,7 +54,7 @@ Orbit with_rebound(const FollowedScene& scene, const Orbit& orbit, std::size_t s
   const double a = with_arcs(
       scene, [&]<Effects E>() { return Flights<double, E>{p}.acceleration(halt.place, halt.phase, opposite(stop)); });
   const double time = advance / p.oscillator.frequency;
-  event.before = a * time / p.restitution(stop);
+  event.before = a * time / p.law(stop).share_at_rest();
   halt.phase += advance, halt.place -= a * time * time / 2;
   Orbit out = orbit;
   out.events[stick] = halt;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "branches/equations/flight.hpp"
+#include "branches/equations/links.hpp"
 #include "branches/walk/flight_end.hpp"
 #include "branches/walk/housing_violation.hpp"
 #include "branches/walk/slip_violation.hpp"
@@ -91,19 +91,14 @@ std::optional<Violation> free_within(const SceneNumbers<double>& p, const motion
 /// Whether the velocity of an event has the right sign.
 bool points_right(const OrbitEvent& event) {
   const double into = sign_of(event.side) * event.before;
-  return event.kind == Event::Kind::impact || event.kind == Event::Kind::touch ? into > 0 : into < 0;
-}
-
-Flight<double> flight_after(const Orbit& orbit, std::size_t i) {
-  const OrbitEvent from = orbit.event(i), to = orbit.event(i + 1);
-  return {from.side, from.phase, from.before, to.side, to.phase, from.kind, to.kind};
+  return event.is_contact() ? into > 0 : into < 0;
 }
 
 /// Where two events of a soft stop are about to vanish, the proof may find a third one beside them: it is theirs.
 Violation told_apart(const SceneNumbers<double>& p, const Orbit& orbit, const Violation& found) {
   constexpr double about = 1e-6;  // rad: the force turns at about its square
   const auto vanishes = [&](std::size_t i) {
-    const Flight<double> flight = flight_after(orbit, i);
+    const Flight<double> flight = detail::flight_of<double>(orbit, i);
     return flight.may_vanish(p) && flight.end - flight.begin < about;
   };
   if (found.kind == Violation::Kind::pulls) {
@@ -114,7 +109,7 @@ Violation told_apart(const SceneNumbers<double>& p, const Orbit& orbit, const Vi
   }
   if (found.turning.kind == Event::Kind::impact) return found;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    const Flight<double> flight = flight_after(orbit, i);
+    const Flight<double> flight = detail::flight_of<double>(orbit, i);
     const double distance = std::remainder(found.turning.phase - flight.begin, orbit.advance());
     if (vanishes(i) && std::abs(distance) < 2 * about) return {Violation::Kind::ends_early, i, {}};
   }
@@ -151,7 +146,7 @@ std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbi
   constexpr double clear_of_rounding = 1e-6;
   const SceneNumbers<double> of_scene = numbers_of<double>(scene);
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (const Flight<double> flight = flight_after(orbit, i);
+    if (const Flight<double> flight = detail::flight_of<double>(orbit, i);
         flight.may_vanish(of_scene) && !(flight.begin < flight.end))
       return Violation{Violation::Kind::ends_early, i, {}};
   for (std::size_t i = 0; i < orbit.size(); ++i)
@@ -164,7 +159,7 @@ std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbi
     const SceneNumbers<double>& p = flights.parameters();
     if (orbit.size() == 0) return response_violation(flights, orbit);
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      Flight<double> flight = flight_after(orbit, i);
+      Flight<double> flight = detail::flight_of<double>(orbit, i);
       const bool without_speed = flight.leaves == Event::Kind::impact || std::abs(flight.coordinate) <= 1e-9;
       const bool leaves_graze = i == grazing && !presses(flight.leaves) && without_speed;
       if (leaves_graze) flight.coordinate = 0;

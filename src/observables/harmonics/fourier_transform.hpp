@@ -42,7 +42,7 @@ struct FourierScratch {
   std::shared_ptr<const FourierTransform> transform{};
   std::unique_ptr<FourierTransform::Workspace, void (*)(FourierTransform::Workspace*)> workspace{nullptr, nullptr};
 
-  /// The same transform, with memory of its own.
+  /// The transform that this one shares, with memory of its own.
   [[nodiscard]] FourierScratch for_another_thread() const {
     if (!transform) return {};
     return {transform, transform->workspace()};

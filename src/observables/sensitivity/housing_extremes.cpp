@@ -25,7 +25,7 @@ class Search {
     };
     RangeSearch(arc, length, see).exceed(DisplacementOnArc{}, range);
   }
-  /// The same in the observed frame.
+  /// Of a stretch with an index, in the frame that the run observes in.
   template <class A>
   void look_at(const HousingStretch& stretch, std::size_t i, const A& arc, double apart = 0.0) {
     if (!span_.frame) return look_at(i, stretch.length, arc, apart);

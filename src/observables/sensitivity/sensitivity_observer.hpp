@@ -15,7 +15,7 @@ namespace clatter::observables {
 /// The derivatives by each key along a course, which is a whole period. Motion has to close, or they are NaN.
 [[nodiscard]] std::vector<Sensitivity::ByKey> sensitivities(const Course& course, const ObservedSpan& span,
                                                             const std::vector<Parameter>& keys);
-/// The same with a loose mass.
+/// The derivatives by each key along a course of a machine with a loose mass; that course has to close, too.
 [[nodiscard]] std::vector<Sensitivity::ByKey> sensitivities(const HousingCourse& course, const ObservedSpan& span,
                                                             const std::vector<Parameter>& keys);
 
