@@ -48,16 +48,8 @@ Json json_of(const Scene& scene) {
   return json;
 }
 
-/// An event on a wall of a loose mass.
-Json in_housing(const ClaimedEvent& event) {
-  const bool presses = event.kind == Kind::rest, lasts = presses || event.kind == Kind::chatter;
-  return {{"event", presses ? "press" : motion::Event::word(event.kind)},
-          {"stop", name_of(event.side)},
-          {"time", json_of(event.time)},
-          {lasts ? "until" : "w", json_of(event.then)}};
-}
-
-Json json_of(const ClaimedEvent& event) {
+/// Of a loose mass an event is one on a wall, on which a rest is a press.
+Json json_of(const ClaimedEvent& event, bool is_loose) {
   if (event.side == Side::none) {
     Json turn{{"event", motion::Event::word(event.kind)}, {"time", json_of(event.time)}};
     if (event.kind == Kind::stick) turn["until"] = json_of(event.then);
@@ -66,10 +58,13 @@ Json json_of(const ClaimedEvent& event) {
   }
   if (event.grazes) return {{"event", "graze"}, {"stop", name_of(event.side)}, {"time", json_of(event.time)}};
   const bool lasts = event.kind == Kind::rest || event.kind == Kind::chatter;
-  return {{"event", motion::Event::word(event.kind)},
+  return {{"event", motion::Event::word(is_loose && event.kind == Kind::rest ? Kind::press : event.kind)},
           {"stop", name_of(event.side)},
           {"time", json_of(event.time)},
-          {lasts ? "until" : "v", json_of(event.then)}};
+          {lasts      ? "until"
+           : is_loose ? "w"
+                      : "v",
+           json_of(event.then)}};
 }
 
 Json start_of(const Certificate& certificate) {
@@ -156,8 +151,7 @@ std::string certificate_text(const Certificate& certificate, const CertifiedPlac
   json["start"] = start_of(certificate);
   json["events"] = Json::array();
   const bool is_loose = has_loose_mass(certificate.scene.loose);
-  for (const ClaimedEvent& event : certificate.events)
-    json["events"].push_back(is_loose ? in_housing(event) : json_of(event));
+  for (const ClaimedEvent& event : certificate.events) json["events"].push_back(json_of(event, is_loose));
   if (!special) json["x_min"] = json_of(certificate.x_min), json["x_max"] = json_of(certificate.x_max);
   if (certificate.period) add_period(json, *certificate.period);
   if (certificate.end) json["end"] = json_of(*certificate.end, is_loose);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "certificates/claims.hpp"
 #include "certificates/housing_bounds.hpp"
@@ -16,20 +17,16 @@ void certify_transient_in_housing(const Problem& problem, const PointResult& res
   auto motion = recorded_in_housing(problem, problem.time.duration / period_of(problem.oscillator));
   point.without = Without::rounding;
   if (!motion) return;
-  motion->duration = problem.time.duration;
-  const HousingBounds bounds(problem, *motion, result, 0.0, false);
-  point.certificate = claims_of(problem, *motion, bounds, result);
-  point.certificate->end = bounds.claimed_end(*motion);
-  keep_if_known(point, bounds);
+  certify_run<HousingBounds>(problem, std::move(*motion), result, point);
 }
 
 namespace {
 
 /// With a loose mass the certificate of a period begins in the middle of the longest press, else of the longest flight.
-double start_in_housing(const HousingMotion& motion) {
+double start_in_housing(const RecordedMotion<4>& motion) {
   double longest = 0.0, middle = 0.0;
-  for (const HousingEvent& event : motion.events)
-    if (event.is_press() && event.length > longest) longest = event.length, middle = event.time + event.length / 2;
+  for (const RecordedEvent<4>& event : motion.events)
+    if (event.is_rest() && event.length > longest) longest = event.length, middle = event.time + event.length / 2;
   if (longest > 0) return middle;
   const auto& events = motion.events;
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -39,14 +36,14 @@ double start_in_housing(const HousingMotion& motion) {
   return std::fmod(middle, motion.duration);
 }
 
-Problem in_housing_from(Problem problem, const HousingState& state, double phase) {
+Problem in_housing_from(Problem problem, const MachineState& state, double phase) {
   problem.start = {state.x, state.v, phase};
   problem.loose.place = state.z, problem.loose.velocity = state.w;
   return problem;
 }
 
 /// Newton's steps to the start of a period; nothing if it isn't one to rounding.
-std::optional<HousingState> improved(const Problem& section, HousingState start, double phase, double turns) {
+std::optional<MachineState> improved(const Problem& section, MachineState start, double phase, double turns) {
   constexpr double same = 1e-7;
   for (int step = 0; step < 2; ++step) {
     const auto motion = recorded_in_housing(in_housing_from(section, start, phase), turns);
@@ -63,7 +60,7 @@ std::optional<HousingState> improved(const Problem& section, HousingState start,
 void certify_periodic_in_housing(const Problem& problem, const PointResult& result, CertifiedPoint& point) {
   point.without = Without::rounding;
   const point::End& end = result.end;
-  const HousingState from{end.displacement, end.velocity, end.loose_place, end.loose_velocity};
+  const MachineState from{end.displacement, end.velocity, end.loose_place, end.loose_velocity};
   const Problem section = in_housing_from(problem, from, end.phase);
   const auto whole = recorded_in_housing(section, result.observed_turns);
   if (!whole) return;
@@ -80,18 +77,11 @@ void certify_periodic_in_housing(const Problem& problem, const PointResult& resu
   const Problem at_start = in_housing_from(problem, *start, phase);
   const auto motion = recorded_in_housing(at_start, result.observed_turns);
   if (!motion) return;
-  const HousingBounds bounds(at_start, *motion, result, time, true);
-  if (!bounds.know_the_start()) {
-    point.without = Without::family;
-    return;
-  }
-  point.certificate = claims_of(at_start, *motion, bounds, result);
-  Certificate& certificate = *point.certificate;
-  certificate.scene.start.phase = end.phase, certificate.time = time, certificate.pressed = start->pressed_by;
-  certificate.x_error = certificate.v_error = bounds.of_start();
-  certificate.period = period_of_result(result);
-  certificate.period->multipliers = bounds.claimed_multipliers(*motion, result);
-  keep_if_known(point, bounds);
+  certify_period<HousingBounds>(at_start, time, *motion, end.phase, result, point,
+                                [&](Certificate& certificate, const HousingBounds& bounds) {
+                                  certificate.pressed = start->pressed_by;
+                                  certificate.period->multipliers = bounds.claimed_multipliers(*motion, result);
+                                });
 }
 
 }  // namespace clatter::certificates

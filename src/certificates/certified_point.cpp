@@ -25,13 +25,13 @@ struct PeriodStart {
 };
 
 /// Whether the mass flies free of the stops after an event.
-bool begins_flight(const RecordedEvent& event) { return event.kind != Kind::touch && event.kind != Kind::renewal; }
+bool begins_flight(const RecordedEvent<2>& event) { return event.kind != Kind::touch && event.kind != Kind::renewal; }
 
 /// The rest that ends in a release before the section or at it; of several the first.
-std::optional<PeriodStart> release_of(const RecordedMotion& motion) {
+std::optional<PeriodStart> release_of(const RecordedMotion<2>& motion) {
   const double same = 1e-12 * motion.duration;
   const auto& events = motion.events;
-  const auto rest = std::ranges::find_if(events, &RecordedEvent::is_rest);
+  const auto rest = std::ranges::find_if(events, &RecordedEvent<2>::is_rest);
   if (rest == events.end()) return std::nullopt;
   if (rest->end() < motion.duration - same) return PeriodStart{rest->end(), rest->side};
   if (rest->time <= same) return PeriodStart{.time = 0.0, .released = Side::none, .rests_for_ever = true};
@@ -39,7 +39,7 @@ std::optional<PeriodStart> release_of(const RecordedMotion& motion) {
 }
 
 /// The release from a rest of a periodic motion, if it has one, else the middle of its longest flight, clear of stops.
-PeriodStart start_of_period(const RecordedMotion& from_section) {
+PeriodStart start_of_period(const RecordedMotion<2>& from_section) {
   if (const auto release = release_of(from_section)) return *release;
   const auto& events = from_section.events;
   double longest = 0.0, middle = 0.0;
@@ -65,7 +65,7 @@ Problem from(Problem problem, double x, double v, double phase) {
   return problem;
 }
 
-bool is_cut(const RecordedMotion& motion) {
+bool is_cut(const RecordedMotion<2>& motion) {
   return !motion.events.empty() && motion.events.back().kind == Kind::chatter &&
          motion.events.back().end() >= motion.duration * (1 - 1e-12);
 }
@@ -77,11 +77,7 @@ void certify_transient(const Problem& problem, const PointResult& result, Certif
     point.without = motion ? Without::cut_chatter : Without::rounding;
     return;
   }
-  motion->duration = problem.time.duration;
-  const ErrorBounds bounds(problem, *motion, result, 0.0, false);
-  point.certificate = claims_of(problem, *motion, bounds, result);
-  point.certificate->end = bounds.claimed_end(*motion);
-  keep_if_known(point, bounds);
+  certify_run<ErrorBounds>(problem, std::move(*motion), result, point);
 }
 
 /// The problem of a periodic motion that begins `start.time` after a section.
@@ -95,14 +91,14 @@ std::optional<Problem> begun(const Problem& section, const PeriodStart& start) {
 }
 
 /// Whether a motion returns to its start.
-bool returns(const Problem& start, const RecordedMotion& motion) {
+bool returns(const Problem& start, const RecordedMotion<2>& motion) {
   constexpr double same = 1e-7;
   const double x = start.start.displacement, v = start.start.velocity;
   return std::abs(motion.end.x - x) + std::abs(motion.end.v - v) <= same * (std::abs(x) + std::abs(v));
 }
 
 /// Newton's step to the start that a motion returns to; false if it is none.
-bool step_to_return(Start& start, const RecordedMotion& motion) {
+bool step_to_return(Start& start, const RecordedMotion<2>& motion) {
   const auto& m = motion.derivative;
   const double x = motion.end.x - start.displacement, v = motion.end.v - start.velocity;
   const double determinant = (1 - m[0]) * (1 - m[3]) - m[1] * m[2];
@@ -114,30 +110,20 @@ bool step_to_return(Start& start, const RecordedMotion& motion) {
   return true;
 }
 
-ClaimedPeriod claimed_period(const PointResult& result, const ErrorBounds& bounds, bool rests) {
-  ClaimedPeriod period = period_of_result(result);
-  const auto multiplier = [&](std::size_t i) {
-    return std::complex<double>(result.multiplier_re[i], result.multiplier_im[i]);
-  };
-  period.multipliers = rests ? std::vector<ClaimedMultiplier>(2) : bounds.claimed({multiplier(0), multiplier(1)});
-  return period;
-}
-
 /// States what is claimed of a period that begins at a time after a section, with the start of its problem.
-void certify_from(const Problem& at_start, const PeriodStart& start, const RecordedMotion& motion, double section_phase,
-                  const PointResult& result, CertifiedPoint& point) {
+void certify_from(const Problem& at_start, const PeriodStart& start, const RecordedMotion<2>& motion,
+                  double section_phase, const PointResult& result, CertifiedPoint& point) {
   const double time = std::fmod(start.time, period_of(at_start.oscillator));
-  const ErrorBounds bounds(at_start, motion, result, time, true);
-  if (!bounds.know_the_start()) {
-    point.without = Without::family;
-    return;
-  }
-  point.certificate = claims_of(at_start, motion, bounds, result);
-  point.certificate->scene.start.phase = section_phase;
-  point.certificate->x_error = point.certificate->v_error = bounds.of_start();
-  point.certificate->time = time, point.certificate->released = start.released;
-  point.certificate->period = claimed_period(result, bounds, start.released != Side::none || start.rests_for_ever);
-  keep_if_known(point, bounds);
+  certify_period<ErrorBounds>(
+      at_start, time, motion, section_phase, result, point, [&](Certificate& certificate, const ErrorBounds& bounds) {
+        const auto multiplier = [&](std::size_t i) {
+          return std::complex<double>(result.multiplier_re[i], result.multiplier_im[i]);
+        };
+        const bool rests = start.released != Side::none || start.rests_for_ever;
+        certificate.released = start.released;
+        certificate.period->multipliers =
+            rests ? std::vector<ClaimedMultiplier>(2) : bounds.claimed({multiplier(0), multiplier(1)});
+      });
 }
 
 /// Certifies, in 50 digits, periodic motion in which double loses its way from one rest to the next. From a release

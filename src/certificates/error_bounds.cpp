@@ -11,67 +11,41 @@ namespace {
 using Kind = motion::Event::Kind;
 using motion::Jacobian;
 
-double norm(const Jacobian<double>& map) {
-  return std::max(std::abs(map[0]) + std::abs(map[1]), std::abs(map[2]) + std::abs(map[3]));
-}
-
 /// The norm of (1 - M)^-1: how far the state that returns moves if the motion is off.
 double norm_of_return(const Jacobian<double>& m) {
   const Jacobian<double> adjoint{1 - m[3], m[1], m[2], 1 - m[0]};
   const double determinant = (1 - m[0]) * (1 - m[3]) - m[1] * m[2];
-  return std::max(1.0, norm(adjoint) / std::abs(determinant));
+  return std::max(1.0, Growth<2>::norm(adjoint) / std::abs(determinant));
 }
 
 }  // namespace
 
-bool tells(const Certificate& certificate, double size, double forcing_period) {
-  constexpr double small = 1e-3;
-  const auto known = [](const Claimed& claim, double scale) { return claim.error <= small * scale; };
-  const auto& end = certificate.end;
-  return certificate.x_error <= small * size && known(certificate.x_min, size) && known(certificate.x_max, size) &&
-         (!end || (known(end->x, size) && known(end->v, size) && known(end->z, size) && known(end->w, size))) &&
-         std::ranges::all_of(certificate.events,
-                             [&](const ClaimedEvent& event) { return known(event.time, forcing_period); });
-}
-
-ErrorBounds::ErrorBounds(const point::Problem& problem, const RecordedMotion& motion, const point::PointResult& result,
-                         double time, bool periodic)
-    : oscillator_(problem.oscillator),
+ErrorBounds::ErrorBounds(const point::Problem& problem, const RecordedMotion<2>& motion,
+                         const point::PointResult& result, double time, bool periodic)
+    : Bounds(problem, motion, time,
+             std::max({std::abs(result.x_min), std::abs(result.x_max), result.x_max - result.x_min,
+                       std::abs(result.v_min), std::abs(result.v_max)}),
+             periodic ? norm_of_return(motion.derivative) : 0.0),
       friction_(problem.friction),
-      stops_(problem.stops),
-      phase_(problem.start.phase),
-      begin_(time),
-      forcing_period_(period_of(problem.oscillator)),
-      size_(std::max({std::abs(result.x_min), std::abs(result.x_max), result.x_max - result.x_min,
-                      std::abs(result.v_min), std::abs(result.v_max)})),
-      of_start_(periodic ? norm_of_return(motion.derivative) : 1.0),
-      stretching_(std::max(1.0, norm(motion.derivative))) {
-  // rounding that a part of the period stretches up to its end, though the whole of it may contract
-  const double rounding = of_arithmetic / of_state * std::max(motion.rounding[0], motion.rounding[1]);
-  if (periodic) of_start_ *= std::max(1.0, rounding);
-  for (const RecordedEvent& event : motion.events)
-    stretching_ = std::max({stretching_, norm(event.derivative), event.rounding[0], event.rounding[1]});
-}
+      stops_(problem.stops) {}
 
-ErrorBounds::StateError ErrorBounds::error_after(const Jacobian<double>& derivative,
-                                                 const std::array<double, 2>& rounding, double path) const {
+ErrorBounds::StateError ErrorBounds::error_after(const Map& derivative, const Sizes& rounding, double path) const {
   const double last = of_arithmetic * std::min(size_, path), before = of_arithmetic * size_;
-  return {of_start() * (std::abs(derivative[0]) + std::abs(derivative[1])) + last + before * rounding[0],
-          of_start() * (std::abs(derivative[2]) + std::abs(derivative[3])) + last + before * rounding[1]};
-}
-double ErrorBounds::time_error(double time) const {
-  return of_arithmetic * (forcing_period_ + std::abs(begin_) + std::abs(time));
+  const auto of = [&](std::size_t i) {
+    return of_start() * Growth<2>::row_norm(derivative, i) + last + before * rounding[i];
+  };
+  return {of(0), of(1)};
 }
 
 /// The displacement at an event: where the force of a soft stop is 0, x - position + q v = 0.
-double ErrorBounds::place_of(const RecordedEvent& event) const {
+double ErrorBounds::place_of(const RecordedEvent<2>& event) const {
   if (event.side == Side::none) return event.place;
   const double position = event.side == Side::upper ? stops_.upper : stops_.lower;
   if (event.kind != Kind::separation && event.kind != Kind::renewal) return position;
   return position - motion::soft_stop_at<double>(stops_, event.side).relaxation() * event.velocity();
 }
 /// The acceleration before an event, at which no soft stop pushes.
-double ErrorBounds::acceleration(const RecordedEvent& event) const {
+double ErrorBounds::acceleration(const RecordedEvent<2>& event) const {
   return oscillator_.forcing * std::sin(oscillator_.frequency * event.time + phase_) +
          constant_force(oscillator_, place_of(event)) - 2 * oscillator_.damping * event.velocity() -
          (event.velocity() > 0   ? friction_.kinetic
@@ -79,7 +53,7 @@ double ErrorBounds::acceleration(const RecordedEvent& event) const {
                                  : 0.0);
 }
 
-ClaimedEvent ErrorBounds::claimed(const RecordedEvent& event, const ClaimedEvent* before) const {
+ClaimedEvent ErrorBounds::claimed(const RecordedEvent<2>& event, const ClaimedEvent* before) const {
   if (event.side == Side::none) return claimed_turn(event);
   if (event.lasts()) return claimed_stay(event, before);
   const bool after_rest = before != nullptr && (before->kind == Kind::rest || before->kind == Kind::stick);
@@ -88,7 +62,7 @@ ClaimedEvent ErrorBounds::claimed(const RecordedEvent& event, const ClaimedEvent
 }
 
 /// The instant at which x, or x + q v where the force of a soft stop passes 0, reaches a place.
-ClaimedEvent ErrorBounds::claimed_contact(const RecordedEvent& event, double since) const {
+ClaimedEvent ErrorBounds::claimed_contact(const RecordedEvent<2>& event, double since) const {
   const StateError error = error_after(event.derivative, event.rounding, size_ * since);
   const double a = acceleration(event);
   double off = error.x, rate = std::abs(event.velocity());
@@ -100,7 +74,7 @@ ClaimedEvent ErrorBounds::claimed_contact(const RecordedEvent& event, double sin
   return {event.kind, event.side, {begin_ + event.time, late}, {event.velocity(), error.v + std::abs(a) * late}};
 }
 
-ClaimedEvent ErrorBounds::claimed_stay(const RecordedEvent& event, const ClaimedEvent* before) const {
+ClaimedEvent ErrorBounds::claimed_stay(const RecordedEvent<2>& event, const ClaimedEvent* before) const {
   const bool follows = before != nullptr && before->side == event.side;
   const bool after_chatter = follows && before->kind == Kind::chatter;
   const double late = after_chatter                             ? before->then.error
@@ -113,7 +87,7 @@ ClaimedEvent ErrorBounds::claimed_stay(const RecordedEvent& event, const Claimed
 
 /// The velocity falls to 0 the later the slower it does: a mass that turns back is pushed that way, one that sticks may
 /// be pushed on by less than the friction.
-ClaimedEvent ErrorBounds::claimed_turn(const RecordedEvent& event) const {
+ClaimedEvent ErrorBounds::claimed_turn(const RecordedEvent<2>& event) const {
   const StateError error = error_after(event.derivative, event.rounding, size_);
   const double push = std::abs(push_at(event.time, event.place)), mu = friction_.kinetic;
   const bool turns = event.kind == Kind::reversal || push >= mu;
@@ -125,8 +99,8 @@ ClaimedEvent ErrorBounds::claimed_turn(const RecordedEvent& event) const {
 
 /// The flights of a chatter last S v together, 2 v/(a (1 - R)) without friction (eqs. 24 and 63): its end is off by the
 /// error of its first impact and by that of its speed.
-double ErrorBounds::chatter_error(const RecordedEvent& event, const ClaimedEvent* before) const {
-  const double R = event.side == Side::upper ? stops_.restitution_upper : stops_.restitution_lower;
+double ErrorBounds::chatter_error(const RecordedEvent<2>& event, const ClaimedEvent* before) const {
+  const double R = restitution_at<double>(stops_, event.side).share_at_rest();
   double error = of_chatter * event.length + time_error(event.end());
   if (before == nullptr) return error;
   const double push = std::abs(acceleration(event)), up = push + friction_.kinetic, down = push - friction_.kinetic;
@@ -136,7 +110,7 @@ double ErrorBounds::chatter_error(const RecordedEvent& event, const ClaimedEvent
 
 /// The force that holds the mass falls to 0 the later the slower it changes, and of a stick the further the spring has
 /// to be overcome (eq. 65); where nothing releases the mass, the end is that of the motion.
-double ErrorBounds::release_error(const RecordedEvent& event, double x, double x_error) const {
+double ErrorBounds::release_error(const RecordedEvent<2>& event, double x, double x_error) const {
   const double force = std::abs(push_at(event.end(), x)) - friction_.static_level;
   const double largest = std::abs(oscillator_.forcing) + std::abs(oscillator_.load) +
                          std::abs(oscillator_.stiffness * x) + friction_.static_level;
@@ -160,13 +134,9 @@ double ErrorBounds::stiffness_at(double x) const {
   return within == Side::none ? k : k + motion::soft_stop_at<double>(stops_, within).stiffness;
 }
 
-ClaimedEnd ErrorBounds::claimed_end(const RecordedMotion& motion) const {
+ClaimedEnd ErrorBounds::claimed_end(const RecordedMotion<2>& motion) const {
   const StateError error = error_after(motion.derivative, motion.rounding, size_);
   return {begin_ + motion.duration, {motion.end.x, error.x}, {motion.end.v, error.v}, {}, {}};
-}
-
-Claimed ErrorBounds::claimed_extremum(double x) const {
-  return {x, (of_state * of_start_ + of_arithmetic) * size_ * stretching_};
 }
 
 /// Two multipliers that are nearly equal move as the root of the change of their sum and product.

@@ -11,7 +11,7 @@ namespace clatter::certificates {
 /// adds on the way. An error that enters late is stretched by what is left of the motion, though what is before it may
 /// have contracted.
 template <std::size_t count>
-class BasicGrowth {
+class Growth {
  public:
   using Map = std::array<double, count * count>;  ///< by rows
   using Sizes = std::array<double, count>;
@@ -28,6 +28,18 @@ class BasicGrowth {
       before_[i] = std::sqrt(std::max(0.0, at(spread_, i, i)));
       at(spread_, i, i) += rounding * rounding;
     }
+  }
+
+  /// The sum of the moduli of a row.
+  [[nodiscard]] static double row_norm(const Map& map, std::size_t i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < count; ++j) sum += std::abs(at(map, i, j));
+    return sum;
+  }
+  [[nodiscard]] static double norm(const Map& map) {
+    double most = row_norm(map, 0);
+    for (std::size_t i = 1; i < count; ++i) most = std::max(most, row_norm(map, i));
+    return most;
   }
 
   [[nodiscard]] const Map& derivative() const { return derivative_; }  ///< from the start
@@ -63,7 +75,5 @@ class BasicGrowth {
   Map derivative_ = identity(), spread_{};  ///< the latter a covariance
   Sizes before_{};
 };
-
-using Growth = BasicGrowth<2>;
 
 }  // namespace clatter::certificates

@@ -5,26 +5,14 @@
 #include <complex>
 
 #include "branches/equations/linear_system.hpp"
-#include "certificates/error_bounds.hpp"
 #include "observables/stability/multipliers.hpp"
 
 namespace clatter::certificates {
 namespace {
 
 using Kind = motion::Event::Kind;
-using Map = HousingGrowth::Map;
-using Sizes = HousingGrowth::Sizes;
-
-/// The sum of the moduli of a row.
-double row_norm(const Map& map, std::size_t i) {
-  double sum = 0;
-  for (std::size_t j = 0; j < 4; ++j) sum += std::abs(map[4 * i + j]);
-  return sum;
-}
-double norm(const Map& map) {
-  return std::max({row_norm(map, 0), row_norm(map, 1), row_norm(map, 2), row_norm(map, 3)});
-}
-double largest(const Sizes& sizes) { return *std::ranges::max_element(sizes); }
+using Map = Growth<4>::Map;
+using Sizes = Growth<4>::Sizes;
 
 /// (1 - M)^-1 b; nothing if there is no inverse.
 std::optional<branches::Vector> returned(const Map& map, const branches::Vector& b) {
@@ -44,60 +32,42 @@ double norm_of_return(const Map& map) {
     if (!column) return std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 4; ++i) rows[i] += std::abs((*column)[i]);
   }
-  return std::max(1.0, largest(rows));
+  return std::max(1.0, *std::ranges::max_element(rows));
 }
 
 /// The most that the walls and the way of the main mass let a loose mass move, and what is seen of its speed.
-double size_of(const point::PointResult& result, const LooseMass& loose, const HousingMotion& motion) {
+double size_of(const point::PointResult& result, const LooseMass& loose, const RecordedMotion<4>& motion) {
   double size =
       std::max({std::abs(result.x_min), std::abs(result.x_max), result.x_max - result.x_min, std::abs(result.v_min),
                 std::abs(result.v_max), result.z_max - result.z_min, std::abs(motion.end.w), std::abs(loose.velocity)});
-  for (const HousingEvent& event : motion.events) size = std::max(size, event.speed());
+  for (const RecordedEvent<4>& event : motion.events) size = std::max(size, event.speed());
   return size;
 }
 
 }  // namespace
 
-HousingBounds::HousingBounds(const point::Problem& problem, const HousingMotion& motion,
+HousingBounds::HousingBounds(const point::Problem& problem, const RecordedMotion<4>& motion,
                              const point::PointResult& result, double time, bool periodic)
-    : oscillator_(problem.oscillator),
+    : Bounds(problem, motion, time, size_of(result, problem.loose, motion),
+             periodic ? norm_of_return(motion.derivative) : 0.0),
       loose_(problem.loose),
-      phase_(problem.start.phase),
-      begin_(time),
-      forcing_period_(period_of(problem.oscillator)),
-      duration_(motion.duration),
-      size_(size_of(result, problem.loose, motion)) {
-  if (periodic) {
-    const double rounding = of_arithmetic / of_state * largest(motion.rounding);
-    of_start_ = norm_of_return(motion.derivative) * std::max(1.0, rounding);
-  }
-  stretching_ = std::max(stretching_, norm(motion.derivative));
-  for (const HousingEvent& event : motion.events)
-    stretching_ = std::max({stretching_, norm(event.derivative), largest(event.rounding)});
-}
-
-bool HousingBounds::know_the_start() const { return of_start_ < 1e10; }
-double HousingBounds::of_start() const { return of_state * size_ * of_start_; }
-bool HousingBounds::tell(const Certificate& certificate) const { return tells(certificate, size_, forcing_period_); }
+      duration_(motion.duration) {}
 
 Sizes HousingBounds::error_after(const Map& derivative, const Sizes& rounding) const {
   Sizes error{};
   for (std::size_t i = 0; i < 4; ++i)
-    error[i] = of_start() * row_norm(derivative, i) + of_arithmetic * size_ * (1 + rounding[i]);
+    error[i] = of_start() * Growth<4>::row_norm(derivative, i) + of_arithmetic * size_ * (1 + rounding[i]);
   return error;
-}
-double HousingBounds::time_error(double time) const {
-  return of_arithmetic * (forcing_period_ + std::abs(begin_) + std::abs(time));
 }
 
 /// The acceleration of the main mass alone at an event, and of both as one at the end of a press.
-double HousingBounds::acceleration(const HousingEvent& event) const {
+double HousingBounds::acceleration(const RecordedEvent<4>& event) const {
   if (event.kind == Kind::rest) return loose_.load;
   return oscillator_.forcing * std::sin(oscillator_.frequency * event.time + phase_) +
-         constant_force(oscillator_, event.main.x) - 2 * oscillator_.damping * event.main.v;
+         constant_force(oscillator_, event.main.place) - 2 * oscillator_.damping * event.main.before;
 }
 
-ClaimedEvent HousingBounds::claimed(const HousingEvent& event, const ClaimedEvent* before) const {
+ClaimedEvent HousingBounds::claimed(const RecordedEvent<4>& event, const ClaimedEvent* before) const {
   if (event.kind == Kind::impact) return claimed_impact(event);
   ClaimedEvent claim{event.kind, event.side, {begin_ + event.time, time_error(event.time)}, {begin_ + event.end(), 0}};
   if (event.kind == Kind::rest) {
@@ -105,7 +75,8 @@ ClaimedEvent HousingBounds::claimed(const HousingEvent& event, const ClaimedEven
     claim.then.error = release_error(event);
     return claim;
   }
-  const double R = loose_.restitution, force = std::abs(loose_.load - acceleration(event));
+  const double R = Restitution<double>{loose_.restitution}.share_at_rest(),
+               force = std::abs(loose_.load - acceleration(event));
   claim.time.error = before->time.error;
   claim.then.error = of_chatter * event.length + time_error(event.end()) + before->time.error +
                      2 * R / (force * (1 - R)) * before->then.error;
@@ -113,7 +84,7 @@ ClaimedEvent HousingBounds::claimed(const HousingEvent& event, const ClaimedEven
 }
 
 /// The instant at which z reaches a wall.
-ClaimedEvent HousingBounds::claimed_impact(const HousingEvent& event) const {
+ClaimedEvent HousingBounds::claimed_impact(const RecordedEvent<4>& event) const {
   const Sizes error = error_after(event.derivative, event.rounding);
   const double late = error[2] / event.speed() + time_error(event.time);
   const double force = std::abs(loose_.load - acceleration(event));
@@ -122,22 +93,23 @@ ClaimedEvent HousingBounds::claimed_impact(const HousingEvent& event) const {
 
 /// x'' of both masses as one reaches the acceleration of the loose one the later, the slower it changes (eq. 72); a
 /// press may go on to the end of the motion.
-double HousingBounds::release_error(const HousingEvent& event) const {
+double HousingBounds::release_error(const RecordedEvent<4>& event) const {
   constexpr double same = 1e-12;
   if (event.end() >= duration_ * (1 - same)) return time_error(event.end());
   const Sizes error = error_after(event.derivative, event.rounding);
   const auto& [h, f, nu, load, k] = oscillator_;
   const double both = 1 + loose_.ratio, cosine = std::cos(nu * event.end() + phase_);
-  const double jerk = std::abs(f * nu * cosine - 2 * h * acceleration(event) - k * event.main.v) / both;
-  const double forces = std::abs(f) + std::abs(load) + 2 * h * std::abs(event.main.v) + std::abs(k * event.main.x);
+  const double jerk = std::abs(f * nu * cosine - 2 * h * acceleration(event) - k * event.main.before) / both;
+  const double forces =
+      std::abs(f) + std::abs(load) + 2 * h * std::abs(event.main.before) + std::abs(k * event.main.place);
   const double of_force =
       2 * h * error[1] + std::abs(k) * error[0] + of_arithmetic * (forces / both + std::abs(loose_.load));
   return time_error(event.end()) + of_force / jerk;
 }
 
-ClaimedEnd HousingBounds::claimed_end(const HousingMotion& motion) const {
+ClaimedEnd HousingBounds::claimed_end(const RecordedMotion<4>& motion) const {
   const Sizes error = error_after(motion.derivative, motion.rounding);
-  const HousingState& end = motion.end;
+  const MachineState& end = motion.end;
   const bool pressed = end.pressed_by != Side::none;
   return {begin_ + motion.duration,
           {end.x, error[0]},
@@ -146,11 +118,7 @@ ClaimedEnd HousingBounds::claimed_end(const HousingMotion& motion) const {
           {end.w, pressed ? 0 : error[3]}};
 }
 
-Claimed HousingBounds::claimed_extremum(double x) const {
-  return {x, (of_state * of_start_ + of_arithmetic) * size_ * stretching_};
-}
-
-std::vector<ClaimedMultiplier> HousingBounds::claimed_multipliers(const HousingMotion& motion,
+std::vector<ClaimedMultiplier> HousingBounds::claimed_multipliers(const RecordedMotion<4>& motion,
                                                                   const point::PointResult& result) const {
   constexpr int changes = 8;
   const double off = of_multiplier * of_start_ * stretching_;
@@ -175,13 +143,13 @@ std::vector<ClaimedMultiplier> HousingBounds::claimed_multipliers(const HousingM
   return claims;
 }
 
-std::optional<HousingState> step_to_return(const HousingState& start, const HousingMotion& motion) {
+std::optional<MachineState> step_to_return(const MachineState& start, const RecordedMotion<4>& motion) {
   const bool pressed = start.pressed_by != Side::none;
   branches::Vector off{motion.end.x - start.x, motion.end.v - start.v, motion.end.z - start.z, motion.end.w - start.w};
   if (pressed) off[2] = off[3] = 0.0;
   const auto by = returned(motion.derivative, off);
   if (!by) return std::nullopt;
-  HousingState there = start;
+  MachineState there = start;
   there.x += (*by)[0], there.v += (*by)[1];
   if (!pressed) there.z += (*by)[2], there.w += (*by)[3];
   return there;

@@ -1,4 +1,4 @@
-#include "certificates/housing_motion.hpp"
+#include "certificates/recorded_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +13,8 @@ namespace {
 using Kind = motion::Event::Kind;
 
 /// A map of changes of (x, x', y, y') as one of (x, x', z, z'), with z = y - x.
-HousingGrowth::Map in_housing(const motion::LooseJacobian& map) {
-  HousingGrowth::Map changed{};
+Growth<4>::Map in_housing(const motion::LooseJacobian& map) {
+  Growth<4>::Map changed{};
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) {
       const auto entry = [&](std::size_t column) {
@@ -26,9 +26,9 @@ HousingGrowth::Map in_housing(const motion::LooseJacobian& map) {
 }
 
 /// The events of a record with their derivatives; a press that sections cut is one.
-std::vector<HousingEvent> events_of(const point::MotionRecorder& recorder, HousingGrowth& growth) {
+std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, Growth<4>& growth) {
   constexpr double same_time = 1e-9;
-  std::vector<HousingEvent> events;
+  std::vector<RecordedEvent<4>> events;
   double since = 0.0;
   for (std::size_t i = 0; i < recorder.events.size(); ++i) {
     const motion::Event& event = recorder.events[i];
@@ -37,7 +37,7 @@ std::vector<HousingEvent> events_of(const point::MotionRecorder& recorder, Housi
     const bool goes_on = event.kind == Kind::rest && !events.empty() && events.back().kind == Kind::rest &&
                          events.back().side == event.side &&
                          event.time - events.back().end() <= same_time * (1 + event.time);
-    HousingEvent recorded{event, growth.derivative(), growth.rounding(), recorder.main_states[i]};
+    RecordedEvent<4> recorded{event, growth.derivative(), growth.rounding()};
     if (goes_on) {
       recorded.time = events.back().time, recorded.length = event.end() - recorded.time;
       events.pop_back();
@@ -47,17 +47,17 @@ std::vector<HousingEvent> events_of(const point::MotionRecorder& recorder, Housi
   return events;
 }
 
-HousingState state_of(const motion::State<double>& state, const LooseMass& loose) {
+MachineState state_of(const motion::State<double>& state, const LooseMass& loose) {
   const auto [z, w] = motion::place_in_housing(state, loose);
   return {state.x, state.v, z, w, state.loose.pressed ? state.loose.wall : Side::none};
 }
 
 }  // namespace
 
-std::vector<HousingEvent> with_chatters(std::vector<HousingEvent> events) {
+std::vector<RecordedEvent<4>> with_chatters(std::vector<RecordedEvent<4>> events) {
   constexpr double slow = 1e-3;
-  std::vector<HousingEvent> list;
-  for (const HousingEvent& event : events) {
+  std::vector<RecordedEvent<4>> list;
+  for (const RecordedEvent<4>& event : events) {
     std::size_t first = list.size();
     double fastest = 0.0;
     while (event.kind == Kind::rest && first > 0 && list[first - 1].kind == Kind::impact &&
@@ -68,7 +68,7 @@ std::vector<HousingEvent> with_chatters(std::vector<HousingEvent> events) {
     const bool chatters = last < list.size() && list[last].after != 0;
     if (chatters) {
       list.resize(last + 1);
-      HousingEvent chatter = list[last];
+      RecordedEvent<4> chatter = list[last];
       chatter.kind = Kind::chatter, chatter.length = event.time - chatter.time;
       list.push_back(chatter);
     }
@@ -77,15 +77,15 @@ std::vector<HousingEvent> with_chatters(std::vector<HousingEvent> events) {
   return list;
 }
 
-std::optional<HousingMotion> recorded_in_housing(const point::Problem& problem, double turns) {
+std::optional<RecordedMotion<4>> recorded_in_housing(const point::Problem& problem, double turns) {
   const auto motion = point::ExactMotion::of(problem);
   point::MotionRecorder recorder(motion->stops());
   recorder.loose.emplace(problem.oscillator, problem.loose);
   recorder.keep_derivatives();
   motion::State<double> state = motion->start();
   if (motion->run_for(state, turns, recorder) != stepping::Outcome::completed) return std::nullopt;
-  HousingGrowth growth;
-  HousingMotion found;
+  Growth<4> growth;
+  RecordedMotion<4> found;
   found.events = with_chatters(events_of(recorder, growth));
   growth.pass(in_housing(recorder.loose->map()), 0.0);
   found.end = state_of(state, problem.loose), found.duration = turns * motion->period();

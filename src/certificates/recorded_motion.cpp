@@ -13,13 +13,13 @@ namespace {
 using Kind = motion::Event::Kind;
 
 /// Whether an event begins on the same stop where another ends.
-bool continues(const RecordedEvent& before, const RecordedEvent& event) {
+bool continues(const RecordedEvent<2>& before, const RecordedEvent<2>& event) {
   constexpr double same_time = 1e-9;
   return before.side == event.side && std::abs(event.time - before.end()) <= same_time * (1 + std::abs(event.time));
 }
 
-void add(std::vector<RecordedEvent>& events, RecordedEvent event) {
-  const RecordedEvent* const before = events.empty() ? nullptr : &events.back();
+void add(std::vector<RecordedEvent<2>>& events, RecordedEvent<2> event) {
+  const RecordedEvent<2>* const before = events.empty() ? nullptr : &events.back();
   const bool goes_on = event.lasts() && before != nullptr && continues(*before, event);
   if (event.kind == Kind::chatter && !(goes_on && before->kind != Kind::rest)) event.kind = Kind::rest;
   if (goes_on && before->kind == event.kind)
@@ -28,15 +28,15 @@ void add(std::vector<RecordedEvent>& events, RecordedEvent event) {
     events.push_back(std::move(event));
 }
 
-std::vector<RecordedEvent> joined_events(const std::vector<motion::Event>& recorded,
-                                         const std::vector<motion::Jacobian<double>>& derivatives, const Stops& stops,
-                                         Growth& growth) {
-  std::vector<RecordedEvent> events;
+std::vector<RecordedEvent<2>> joined_events(const std::vector<motion::Event>& recorded,
+                                            const std::vector<motion::Jacobian<double>>& derivatives,
+                                            const Stops& stops, Growth<2>& growth) {
+  std::vector<RecordedEvent<2>> events;
   double since = 0.0;
   for (std::size_t i = 0; i < recorded.size(); ++i) {
     if (i < derivatives.size()) growth.pass(derivatives[i], std::min(1.0, recorded[i].time - since));
     since = recorded[i].time + recorded[i].length;
-    const RecordedEvent event{recorded[i], growth.derivative(), growth.rounding()};
+    const RecordedEvent<2> event{recorded[i], growth.derivative(), growth.rounding()};
     if (!(event.lasts() && is_soft(stops, event.side))) add(events, event);
   }
   return events;
@@ -44,32 +44,34 @@ std::vector<RecordedEvent> joined_events(const std::vector<motion::Event>& recor
 
 }  // namespace
 
-std::optional<RecordedMotion> recorded(const point::Problem& problem, double turns, Side released) {
+std::optional<RecordedMotion<2>> recorded(const point::Problem& problem, double turns, Side released) {
   const auto motion = point::ExactMotion::of(problem);
   point::MotionRecorder recorder(motion->stops());
   recorder.keep_derivatives();
   motion::State<double> state = motion->start();
   if (released != Side::none) state.released = true, state.from_stop = released;
   if (motion->run_for(state, turns, recorder) != stepping::Outcome::completed) return std::nullopt;
-  Growth growth;
-  std::vector<RecordedEvent> events = joined_events(recorder, problem.stops, growth);
+  Growth<2> growth;
+  std::vector<RecordedEvent<2>> events = joined_events(recorder, problem.stops, growth);
   growth.pass(recorder.watch.derivative(), 0.0);
-  return RecordedMotion{std::move(events), state, growth.derivative(), growth.rounding(), turns * motion->period()};
+  return RecordedMotion<2>{
+      std::move(events), {state.x, state.v}, growth.derivative(), growth.rounding(), turns * motion->period()};
 }
 
-std::vector<RecordedEvent> joined_events(const point::MotionRecorder& recorder, const Stops& stops, Growth& growth) {
+std::vector<RecordedEvent<2>> joined_events(const point::MotionRecorder& recorder, const Stops& stops,
+                                            Growth<2>& growth) {
   return joined_events(recorder.events, recorder.derivatives, stops, growth);
 }
 
-std::optional<RecordedMotion> recorded_from_release(const point::Problem& problem, Side side, double turns,
-                                                    double& release) {
+std::optional<RecordedMotion<2>> recorded_from_release(const point::Problem& problem, Side side, double turns,
+                                                       double& release) {
   const auto motion = point::released_motion(problem, side, std::llround(turns));
   if (!motion) return std::nullopt;
   release = motion->release;
-  Growth growth;
-  RecordedMotion recorded{.events = joined_events(motion->events, {}, problem.stops, growth),
-                          .duration = turns * period_of(problem.oscillator)};
-  for (RecordedEvent& event : recorded.events) event.derivative = {};  // the start is known, and no rounding grows
+  Growth<2> growth;
+  RecordedMotion<2> recorded{.events = joined_events(motion->events, {}, problem.stops, growth),
+                             .duration = turns * period_of(problem.oscillator)};
+  for (RecordedEvent<2>& event : recorded.events) event.derivative = {};  // the start is known, and no rounding grows
   recorded.end.x = side == Side::upper ? problem.stops.upper : problem.stops.lower;
   return recorded;
 }

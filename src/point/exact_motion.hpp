@@ -27,7 +27,7 @@ class MotionRecorder {
       loose->arc(arc, begin, length);
       if (!keeps_derivatives_) return;
       const motion::Motion<double> end = arc.at(length);
-      main_ = {end.x, end.v};
+      main_ = {end.x, end.v, end.v};
     }
   }
   /// An event of a loose mass is kept as one of a mass between stops, a press as the hold that it begins.
@@ -39,7 +39,7 @@ class MotionRecorder {
 
   void keep_events() { keeps_events_ = true; }
   /// Keeps them with the derivative of the motion to each from the one before, the first from here; of a time on a wall
-  /// to its end.
+  /// to its end, and with the main mass there.
   void keep_derivatives() { keeps_events_ = keeps_derivatives_ = true, watch.differentiate(); }
 
   steady::PassageObserver watch;
@@ -47,19 +47,20 @@ class MotionRecorder {
   std::vector<motion::Event> events{};                     ///< in order, if they are kept
   std::vector<motion::Jacobian<double>> derivatives{};     ///< of the state before each of them by that before the last
   std::vector<motion::LooseJacobian> loose_derivatives{};  ///< in place of them with a loose mass
-  std::vector<PhasePoint> main_states{};                   ///< with a loose mass: of the main one, there
 
  private:
   void add(const motion::Event& event) {
     if (keeps_events_) events.push_back(event);
-    if (keeps_derivatives_ && loose) [[unlikely]]
-      loose_derivatives.push_back(loose->map()), loose->begin_anew(), main_states.push_back(main_);
-    else if (keeps_derivatives_)
+    if (keeps_derivatives_ && loose) [[unlikely]] {
+      loose_derivatives.push_back(loose->map()), loose->begin_anew();
+      if (event.lasts()) events.back().main = main_;
+    } else if (keeps_derivatives_) {
       derivatives.push_back(watch.derivative()), watch.begin_derivative_anew();
+    }
   }
 
   bool keeps_events_ = false, keeps_derivatives_ = false;
-  PhasePoint main_{};  ///< at the end of the last arc
+  motion::Event::Main main_{};  ///< at the end of the last arc
 };
 
 /// The motion of a problem by the exact method, with the effects that it requires, for those who look at a motion

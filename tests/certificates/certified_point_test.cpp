@@ -27,7 +27,7 @@ Certificate certificate_of(const point::Problem& problem) {
 }
 
 /// The largest error of a claimed event's time against events that are computed anew, over the claimed error.
-double worst_time(const Certificate& certificate, const std::vector<RecordedEvent>& events) {
+double worst_time(const Certificate& certificate, const std::vector<RecordedEvent<2>>& events) {
   double worst = 0.0;
   EXPECT_EQ(certificate.events.size(), events.size());
   for (std::size_t i = 0; i < std::min(events.size(), certificate.events.size()); ++i) {

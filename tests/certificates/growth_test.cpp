@@ -6,7 +6,7 @@ namespace clatter::certificates::growth_test {
 namespace {
 
 TEST(Growth, rounding_that_enters_after_a_contraction_is_stretched_by_the_rest_alone) {
-  Growth growth;
+  Growth<2> growth;
   growth.pass({0.01, 0, 0, 0.01}, 1.0);
   growth.pass({100, 0, 0, 10}, 1.0);
   EXPECT_DOUBLE_EQ(growth.derivative()[0], 1.0);
@@ -16,7 +16,7 @@ TEST(Growth, rounding_that_enters_after_a_contraction_is_stretched_by_the_rest_a
 }
 
 TEST(Growth, errors_turn_with_the_motion) {
-  Growth growth;
+  Growth<2> growth;
   growth.pass({0, 1, -1, 0}, 3.0);
   growth.pass({0, 1, -1, 0}, 4.0);
   growth.pass({2, 0, 0, 1}, 0.0);
@@ -26,7 +26,7 @@ TEST(Growth, errors_turn_with_the_motion) {
 }
 
 TEST(Growth, a_rest_forgets_all) {
-  Growth growth;
+  Growth<2> growth;
   growth.pass({3, 1, 2, 5}, 1.0);
   growth.pass({0, 0, 0, 0}, 0.5);
   EXPECT_EQ(growth.rounding()[0], 0.0);

@@ -1,4 +1,4 @@
-#include "certificates/housing_motion.hpp"
+#include "certificates/recorded_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +9,13 @@ namespace {
 
 using Kind = motion::Event::Kind;
 
-HousingEvent impact(Side side, double time, double before, double after) {
+RecordedEvent<4> impact(Side side, double time, double before, double after) {
   return {{Kind::impact, side, time, before, 0.0, after}};
 }
-HousingEvent press(Side side, double time, double length) { return {{Kind::rest, side, time, 0.0, length}}; }
+RecordedEvent<4> press(Side side, double time, double length) { return {{Kind::rest, side, time, 0.0, length}}; }
 
 TEST(HousingEvents, impacts_a_thousand_times_slower_than_the_first_are_one_chatter) {
-  std::vector<HousingEvent> events;
+  std::vector<RecordedEvent<4>> events;
   double time = 1.0, speed = 0.5;
   for (int i = 0; i < 20; ++i, time += speed, speed /= 4)
     events.push_back(impact(Side::upper, time, speed, -speed / 4));
@@ -60,7 +60,7 @@ TEST(HousingMotion, the_derivative_is_that_of_the_difference_of_runs) {
       *numbers[j] += by;
       return recorded_in_housing(moved, 1.0)->end;
     };
-    const HousingState up = beside(small), down = beside(-small);
+    const MachineState up = beside(small), down = beside(-small);
     const double slopes[] = {up.x - down.x, up.v - down.v, up.z - down.z, up.w - down.w};
     for (std::size_t i = 0; i < 4; ++i)
       EXPECT_NEAR(motion->derivative[4 * i + j], slopes[i] / (2 * small), 1e-6) << i << ' ' << j;

@@ -15,8 +15,8 @@ point::MotionRecorder recorder_of(const std::vector<motion::Event>& events) {
   return recorder;
 }
 
-std::vector<RecordedEvent> events_of(const point::MotionRecorder& recorder, const Stops& of) {
-  Growth growth;
+std::vector<RecordedEvent<2>> events_of(const point::MotionRecorder& recorder, const Stops& of) {
+  Growth<2> growth;
   return joined_events(recorder, of, growth);
 }
 
