@@ -9,9 +9,11 @@
 #include "stepping/integrator.hpp"
 #include "stepping/stage.hpp"
 
+namespace clatter::stepping {
+
 /// Laws of the events of a mass between stops: each gives the state after, whose numbers say which mode is next, and
 /// tells of the event.
-namespace clatter::stepping::laws {
+namespace laws {
 
 /// Reverses the velocity at a rigid stop (eq. 4).
 template <class Number>
@@ -110,4 +112,6 @@ template <class Stage>
   return Outcome::completed;
 }
 
-}  // namespace clatter::stepping::laws
+}  // namespace laws
+
+}  // namespace clatter::stepping

@@ -4,8 +4,10 @@
 
 #include "motion/dry_friction.hpp"
 
-/// When a mass is let go that something holds.
-namespace clatter::stepping::modes {
+namespace clatter::stepping {
+
+/// When a mass is let go that something holds, and all else that modes share.
+namespace modes {
 
 /// A phase of the force, counted from the section: in turns, 0 ... 1.
 template <class Loop, class Number>
@@ -34,4 +36,6 @@ template <class Number>
   return at >= now && at <= end ? std::optional(at) : std::nullopt;
 }
 
-}  // namespace clatter::stepping::modes
+}  // namespace modes
+
+}  // namespace clatter::stepping
