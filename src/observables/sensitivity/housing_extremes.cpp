@@ -27,7 +27,7 @@ class Search {
   }
   /// Of a stretch with an index, in the frame that the run observes in.
   template <class A>
-  void look_at(const HousingStretch& stretch, std::size_t i, const A& arc, double apart = 0.0) {
+  void look_at(const Stretch& stretch, std::size_t i, const A& arc, double apart = 0.0) {
     if (!span_.frame) return look_at(i, stretch.length, arc, apart);
     look_at(i, stretch.length, AbsoluteArc(arc, *span_.frame, Stops{}, stretch.begin), apart);
   }
@@ -38,21 +38,21 @@ class Search {
 };
 
 template <Effects E>
-HousingExtremes extremes_with(const HousingCourse& course, const ObservedSpan& span) {
+HousingExtremes extremes_with(const Course& course, const ObservedSpan& span) {
   const LooseMass& housing = span.scene.loose;
   const motion::ArcConstants<double, E> free(span.scene.oscillator);
   const motion::CarryingOscillator<double> carrying(free, housing);
   HousingExtremes extremes;
   Search x(span, extremes.x), y(span, extremes.y), z(span, extremes.z);
   for (std::size_t i = 0; i < course.size(); ++i) {
-    const HousingStretch& stretch = course[i];
+    const Stretch& stretch = course[i];
     if (!(stretch.length > 0)) continue;
     const auto hold = [&](const auto& constants) {
-      const double place = stretch.held == Side::upper ? housing.upper : housing.lower;
+      const double place = stretch.pressed == Side::upper ? housing.upper : housing.lower;
       const motion::Arc main(constants, stretch.start, stretch.anchor);
       x.look_at(stretch, i, main), y.look_at(stretch, i, main, place), extremes.z.see({place, i});
     };
-    if (stretch.held != Side::none) {
+    if (stretch.pressed != Side::none) {
       carrying.with_constants(hold);
       continue;
     }
@@ -65,7 +65,7 @@ HousingExtremes extremes_with(const HousingCourse& course, const ObservedSpan& s
 
 }  // namespace
 
-HousingExtremes extremes_of(const HousingCourse& course, const ObservedSpan& span) {
+HousingExtremes extremes_in_housing(const Course& course, const ObservedSpan& span) {
   return with_smooth_effects<true>(span.scene.oscillator, [&]<Effects E>() { return extremes_with<E>(course, span); });
 }
 

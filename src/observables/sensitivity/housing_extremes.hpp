@@ -1,7 +1,7 @@
 #pragma once
 
+#include "observables/sensitivity/course.hpp"
 #include "observables/sensitivity/course_extremes.hpp"
-#include "observables/sensitivity/housing_course.hpp"
 
 namespace clatter::observables {
 
@@ -11,6 +11,6 @@ struct HousingExtremes {
   Extremes x{}, y{}, z{};
 };
 
-[[nodiscard]] HousingExtremes extremes_of(const HousingCourse& course, const ObservedSpan& span);
+[[nodiscard]] HousingExtremes extremes_in_housing(const Course& course, const ObservedSpan& span);
 
 }  // namespace clatter::observables

@@ -25,7 +25,7 @@ constexpr std::size_t by_x = 0, by_v = 1, by_z = 2, by_w = 3, by_key = 4;
 template <Effects E>
 class HousingWalk {
  public:
-  HousingWalk(const HousingCourse& course, const ObservedSpan& span, const HousingExtremes& extremes,
+  HousingWalk(const Course& course, const ObservedSpan& span, const HousingExtremes& extremes,
               const BasicScene<Along>& scene, const Along& mass)
       : course_(course),
         span_(span),
@@ -44,7 +44,7 @@ class HousingWalk {
     begin(course_.front());
     for (std::size_t i = 0; i < course_.size(); ++i) {
       check(course_[i]);
-      if (course_[i].held == Side::none)
+      if (course_[i].pressed == Side::none)
         fly(i);
       else
         carrying_.with_constants([&](const auto& constants) { carry(i, constants); });
@@ -63,32 +63,32 @@ class HousingWalk {
 
   /// Whether no wall meets the loose mass, which is then the same motion wherever it is.
   [[nodiscard]] bool is_neutral() const {
-    return std::ranges::all_of(course_, [](const HousingStretch& stretch) {
-      return stretch.held == Side::none && stretch.struck == Side::none;
+    return std::ranges::all_of(course_, [](const Stretch& stretch) {
+      return stretch.pressed == Side::none && stretch.struck() == Side::none;
     });
   }
   [[nodiscard]] Along place(Side wall) const { return wall == Side::upper ? scene_.loose.upper : scene_.loose.lower; }
 
   /// At a section, in an unknown state. A wall that presses the loose mass leaves nothing of z and z'.
-  void begin(const HousingStretch& first) {
+  void begin(const Stretch& first) {
     const motion::RelativeStart<double>& loose = first.loose;
     state_ = {Along(first.start.x, by_x), Along(first.start.v, by_v), Along(loose.origin + loose.offset, by_z),
               Along(loose.w, by_w), force_.lead};
-    if (first.held != Side::none) state_.z = place(first.held), state_.w = Along(0);
+    if (first.pressed != Side::none) state_.z = place(first.pressed), state_.w = Along(0);
   }
 
   void fly(std::size_t i) {
-    const HousingStretch& stretch = course_[i];
+    const Stretch& stretch = course_[i];
     const motion::Arc<Along, E> main(free_, start_of(stretch, free_), Along(stretch.anchor));
     const motion::RelativeArc<Along, E> arc(main, start_of(stretch.loose), scene_.loose.load);
     const Motion end = main.at(Along(stretch.length)), there = arc.at(Along(stretch.length));
-    const bool strikes = stretch.struck != Side::none;
+    const bool strikes = stretch.struck() != Side::none;
     const Along late =
-        strikes ? with_slope_of(0, (place(stretch.struck) - stretch.loose.origin - there.offset) / there.v.value)
+        strikes ? with_slope_of(0, (place(stretch.struck()) - stretch.loose.origin - there.offset) / there.v.value)
                 : lateness_of_section(stretch.length);
     const State before = state_;
     pass(stretch.length, end, late);
-    state_.z = strikes ? place(stretch.struck) : there.x + there.v * late;
+    state_.z = strikes ? place(stretch.struck()) : there.x + there.v * late;
     state_.w = there.v + there.a * late;
     see(i, before, end, [&](const Along& s) { return Both{main.at(s), arc.at(s)}; });
     meet(stretch);
@@ -99,19 +99,19 @@ class HousingWalk {
   /// section.
   template <Effects of>
   void carry(std::size_t i, const motion::ArcConstants<Along, of>& constants) {
-    const HousingStretch& stretch = course_[i];
+    const Stretch& stretch = course_[i];
     const motion::Arc<Along, of> arc(constants, start_of(stretch, constants), Along(stretch.anchor));
     const Motion end = arc.at(Along(stretch.length));
     const State before = state_;
     pass(stretch.length, end, lateness_of_section(stretch.length));
-    state_.z = place(stretch.held), state_.w = Along(0);
+    state_.z = place(stretch.pressed), state_.w = Along(0);
     see(i, before, end, [&](const Along& s) {
       return Both{arc.at(s), {.offset = 0, .x = state_.z, .v = 0, .a = 0, .sine = 0, .cosine = 0}};
     });
   }
 
   template <Effects of>
-  [[nodiscard]] Motion start_of(const HousingStretch& stretch, const motion::ArcConstants<Along, of>& constants) const {
+  [[nodiscard]] Motion start_of(const Stretch& stretch, const motion::ArcConstants<Along, of>& constants) const {
     return with_slopes_of(stretch.start, stretch.anchor, state_.x, state_.v, state_.phase, constants);
   }
   [[nodiscard]] motion::RelativeStart<Along> start_of(const motion::RelativeStart<double>& loose) const {
@@ -133,10 +133,10 @@ class HousingWalk {
   }
 
   /// An impact on a wall (eq. 70), and the loss of what is left of a chatter.
-  void meet(const HousingStretch& stretch) {
-    if (stretch.struck != Side::none) {
+  void meet(const Stretch& stretch) {
+    if (stretch.struck() != Side::none) {
       const Along speed = abs(state_.w), after = rule_.law.after(state_.w);
-      Along& fastest = fastest_[index_of(stretch.struck)];
+      Along& fastest = fastest_[index_of(stretch.struck())];
       if (!(fastest.value >= speed.value)) fastest = speed;
       lost_ += rule_.loss(state_.w, after);
       state_.v = rule_.main_after(state_.v, state_.w), state_.w = after;
@@ -156,7 +156,7 @@ class HousingWalk {
   template <class At>
   void see(std::size_t i, const State& before, const Motion& end, const At& at) {
     const auto seen = [&](const Place& place, const auto& of) -> Along {
-      const HousingStretch& stretch = course_[i];
+      const Stretch& stretch = course_[i];
       if (place.s > 0 && place.s < stretch.length) return of(at(Along(place.s)), phase_after(before, place.s), true);
       const bool is_end = place.s > 0;
       const State& state = is_end ? state_ : before;
@@ -185,10 +185,10 @@ class HousingWalk {
   }
 
   /// A course whose stretches don't follow from each other has no derivatives.
-  void check(const HousingStretch& next) {
+  void check(const Stretch& next) {
     const motion::RelativeStart<double>& loose = next.loose;
-    const bool is_held = next.held != Side::none;
-    const double z = is_held ? place(next.held).value : loose.origin + loose.offset, w = is_held ? 0.0 : loose.w;
+    const bool is_held = next.pressed != Side::none;
+    const double z = is_held ? place(next.pressed).value : loose.origin + loose.offset, w = is_held ? 0.0 : loose.w;
     const motion::Motion<double>& main = next.start;
     const double size = std::max({std::abs(main.x), std::abs(main.v), std::abs(z), std::abs(w)});
     const auto is_same = [&](const Along& one, double other) { return std::abs(one.value - other) <= same * size; };
@@ -223,7 +223,7 @@ class HousingWalk {
 
   static constexpr double same = 1e-6;  ///< relative difference of states that are one
 
-  const HousingCourse& course_;
+  const Course& course_;
   const ObservedSpan& span_;
   const HousingExtremes& extremes_;
   const BasicScene<Along>& scene_;
@@ -248,10 +248,10 @@ class HousingWalk {
 
 }  // namespace
 
-std::vector<Sensitivity::ByKey> sensitivities(const HousingCourse& course, const ObservedSpan& span,
-                                              const std::vector<Parameter>& keys) {
+std::vector<Sensitivity::ByKey> sensitivities_in_housing(const Course& course, const ObservedSpan& span,
+                                                         const std::vector<Parameter>& keys) {
   std::vector<Sensitivity::ByKey> all;
-  const HousingExtremes extremes = extremes_of(course, span);
+  const HousingExtremes extremes = extremes_in_housing(course, span);
   for (const Parameter key : keys) {
     auto given = with_numbers<Along>(*span.given);
     differentiate_by(given, key, by_key);

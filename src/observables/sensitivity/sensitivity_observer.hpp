@@ -6,7 +6,6 @@
 #include "motion/event.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "observables/sensitivity/course.hpp"
-#include "observables/sensitivity/housing_course.hpp"
 #include "observables/sensitivity/sensitivity.hpp"
 #include "observables/stability/stability_observer.hpp"
 
@@ -16,8 +15,8 @@ namespace clatter::observables {
 [[nodiscard]] std::vector<Sensitivity::ByKey> sensitivities(const Course& course, const ObservedSpan& span,
                                                             const std::vector<Parameter>& keys);
 /// The derivatives by each key along a course of a machine with a loose mass; that course has to close, too.
-[[nodiscard]] std::vector<Sensitivity::ByKey> sensitivities(const HousingCourse& course, const ObservedSpan& span,
-                                                            const std::vector<Parameter>& keys);
+[[nodiscard]] std::vector<Sensitivity::ByKey> sensitivities_in_housing(const Course& course, const ObservedSpan& span,
+                                                                       const std::vector<Parameter>& keys);
 
 /// Records the course of a period; the derivatives follow from it at the end.
 class Sensitivity::Observer {
@@ -33,12 +32,13 @@ class Sensitivity::Observer {
     if constexpr (!motion::Polynomial<A>) {  // of general methods there are none
       if (!is_sought_) return;
       stability_.arc(arc, begin, length);
-      if constexpr (motion::Housed<A>)
-        return housing_.push_back(stretch_of(arc.loose, {arc.start(), arc.anchor(), begin, length}));
       // the sign of the friction, of 0 too, is against the velocity
       const Side ahead = std::signbit(arc.constants().friction) ? Side::upper : Side::lower;
       course_.push_back({arc.start(), arc.anchor(), begin, length, Side::none, ahead});
-      if constexpr (A::effects.stiffness) course_.back().pressed = arc.constants().stop.side;
+      if constexpr (motion::Housed<A>)
+        add_loose(arc.loose);
+      else if constexpr (A::effects.stiffness)
+        course_.back().pressed = arc.constants().stop.side;
     }
   }
   void event(const motion::Event& event) {
@@ -57,26 +57,21 @@ class Sensitivity::Observer {
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
     if (!is_sought_ || grazes()) return {};
-    if (is_housed_) return {sensitivities(housing_, span, keys_.list())};
+    if (is_housed_) return {sensitivities_in_housing(course_, span, keys_.list())};
     return {sensitivities(course_, span, keys_.list())};
   }
   [[nodiscard]] double evaluations() const { return stability_.evaluations(); }  ///< of arcs
 
  private:
   template <Effects E>
-  static HousingStretch stretch_of(const motion::RelativeArc<double, E>& loose, HousingStretch of_main) {
-    of_main.loose = {loose.anchor(), loose.start().offset, loose.start().v, loose.velocity(0.0)};
-    return of_main;
+  void add_loose(const motion::RelativeArc<double, E>& loose) {
+    course_.back().loose = {loose.anchor(), loose.start().offset, loose.start().v, loose.velocity(0.0)};
   }
-  static HousingStretch stretch_of(const motion::Pressed& loose, HousingStretch of_main) {
-    of_main.held = loose.wall;
-    return of_main;
-  }
+  void add_loose(const motion::Pressed& loose) { course_.back().pressed = loose.wall; }
   /// A loose mass strikes a wall, or comes to rest on it.
   void end_housed(const motion::Event& event) {
-    if (housing_.empty()) return;
-    if (event.kind == motion::Event::Kind::strike) housing_.back().struck = event.side;
-    if (event.kind == motion::Event::Kind::press) housing_.back().comes_to_rest = true;
+    if (event.kind == motion::Event::Kind::strike) end_with(event);
+    if (event.kind == motion::Event::Kind::press && !course_.empty()) course_.back().comes_to_rest = true;
   }
   void end_with(const motion::Event& event) {
     if (!course_.empty()) course_.back().end = event;
@@ -86,7 +81,6 @@ class Sensitivity::Observer {
   bool is_sought_, is_housed_;
   Stability::Observer stability_;  ///< tells grazes
   Course course_{};
-  HousingCourse housing_{};  ///< with a loose mass, in place of it
 };
 
 }  // namespace clatter::observables
