@@ -26,7 +26,7 @@ TEST(HousingEvents, impacts_a_thousand_times_slower_than_the_first_are_one_chatt
   EXPECT_EQ(joined[5].kind, Kind::chatter);
   EXPECT_EQ(joined[5].time, joined[4].time);
   EXPECT_EQ(joined[5].end(), time);
-  EXPECT_TRUE(joined[6].is_press());
+  EXPECT_TRUE(joined[6].is_rest());
 }
 
 TEST(HousingEvents, a_press_after_an_impact_without_a_rebound_or_after_none_has_no_chatter) {
