@@ -65,8 +65,7 @@ add_custom_target(clatter_version)
         self.write("apps/clatter/main.cpp", "int main() {}\n")
         self.write("src/sweep/a.cpp", CPP)
         self.write("tests/cli/arrows_test.py", read("tests/cli/arrows_test.py"))
-        for guide in ("src/README.md", "src/branches/README.md"):  # whose arrows that test reads
-            self.write(guide, read(guide))
+        self.write("src/README.md", read("src/README.md"))
         self.write("scripts/a.py", 'print("a")\n')
         # If a package is missing, a test installs nothing.
         self.write(

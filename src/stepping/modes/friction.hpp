@@ -99,6 +99,8 @@ struct AnySlip {
   using Number = typename Loop::Number;
   using Crossing = motion::Crossing<Number>;
 
+  AnySlip(Loop& loop_, motion::State<Number>& state_) : loop(loop_), state(state_) {}
+
   Loop& loop;
   motion::State<Number>& state;
   Side ahead = modes::heading(loop, state);
@@ -140,6 +142,7 @@ struct Slip : AnySlip<Loop> {
                            Search::margins, "impact or touch; stick or reversal"};
   static constexpr bool called_for = Stuck<Loop>::called_for;
   using typename AnySlip<Loop>::Number;
+  using AnySlip<Loop>::AnySlip;
   using AnySlip<Loop>::loop, AnySlip<Loop>::state, AnySlip<Loop>::ahead;
 
   motion::Stop<Number> stop = motion::stop_at<Number>(loop.stops(), ahead);
@@ -192,6 +195,7 @@ struct SlipInContact : AnySlip<Loop> {
                            Search::margins, "separation; stick or reversal"};
   static constexpr bool called_for = Stuck<Loop>::called_for && Loop::effects.soft;
   using typename AnySlip<Loop>::Number;
+  using AnySlip<Loop>::AnySlip;
   using AnySlip<Loop>::loop, AnySlip<Loop>::state, AnySlip<Loop>::ahead;
 
   motion::SoftStop<Number> stop = motion::soft_stop_at<Number>(loop.stops(), state.within);
