@@ -15,6 +15,8 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   soft         COUNT scenes with soft stops against 50 digits and a general solver (default 100000; about 0.1 s each)
   slides       COUNT scenes with dry friction, event by event, against Taylor series (default 10000; about 30 ms each)
   carried      COUNT scenes with a loose mass, event by event, against Taylor series (default 10000; about 60 ms each)
+  machines     COUNT machines with a loose mass beside stops and friction against Taylor series in 113 bits
+               (default 2000; about 0.1 s each)
   attractors   the motions of COUNT scenes, numbered and told apart by long runs (default 1000; about 0.5 s each)
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
   kills        COUNT runs killed, each sweep again and again until it is done  (default 1000; about 0.5 s each)
@@ -49,6 +51,7 @@ case "${1-}" in
   soft) filter='SoftStops.random*:SoftStops.no_contact*' count=100000 tests=stepping_tests ;;
   slides) filter='SlidingScenes.*' count=10000 ;;
   carried) filter='CarryingScenes.*' count=10000 ;;
+  machines) filter='Machines.*' count=2000 ;;
   drift) filter='Long.conservative*' count=100000000 ;;
   kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=1000 ;;
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;

@@ -26,7 +26,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
   static constexpr bool in_closed_form = false;
 
   explicit Moreau(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
-      : Base(scene, integration, limits), walls_(this->constants(), scene.loose) {}
+      : Base(scene, integration, limits), walls_(scene.loose), carrying_(this->constants(), scene.loose) {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and reports every step's arcs
   /// and events with their times since the section `origin`.
@@ -125,7 +125,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
   template <class Stage>
   void carry(Stage& stage, double turns) {
     motion::State<double>& state = stage.state;
-    walls_.carrying.with_constants([&](const auto& constants) {
+    carrying_.with_constants([&](const auto& constants) {
       const StepEnd both = this->step_end(constants, state, turns);
       hold(constants, stage, both.length, both.momentum / both.mass);
     });
@@ -138,7 +138,12 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
     const auto arc = this->arc(constants, state.x, state.phase_turns, length,
                                cubic(length, {0.0, state.v}, {way, v_end}), this->ramp(length, state.v, v_end));
     stage.show(motion::HousedArc{arc, motion::Pressed{side, walls_.place(side)}}, length);
-    stage.show({Kind::hold, side, begin, 0.0, length, 0.0, walls_.place(side)});
+    stage.show({.kind = Kind::hold,
+                .side = side,
+                .time = begin,
+                .length = length,
+                .place = walls_.place(side),
+                .has_arc = true});
     state.x += way, state.v = v_end;
   }
 
@@ -165,8 +170,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
       fly(stage, loose_of(state), free.length - until, state.v, after);
     } else {
       press(stage, side);
-      walls_.carrying.with_constants(
-          [&](const auto& constants) { hold(constants, stage, free.length - until, state.v); });
+      carrying_.with_constants([&](const auto& constants) { hold(constants, stage, free.length - until, state.v); });
     }
     state.phase_turns = turns;
     return affordable;
@@ -200,6 +204,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
   }
 
   motion::Walls<double> walls_;
+  motion::CarryingOscillator<double> carrying_;
 };
 
 }  // namespace clatter::stepping

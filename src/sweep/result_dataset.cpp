@@ -111,7 +111,11 @@ class Maker {
       name_frame(sweep_, column.frame, variable);
       variable.missing_if = column.missing_if;
       if (column.name == "impact_tau")
-        add<std::int8_t>("impact_stop", {"impact"}, "stop that is hit, -1: lower, +1: upper");
+        add<std::int8_t>(
+            "impact_stop", {"impact"},
+            sweep_.problem.observe.wall_log
+                ? "stop or wall that is hit, -1: lower stop, +1: upper stop, -2: lower wall, +2: upper wall"
+                : "stop that is hit, -1: lower, +1: upper");
     }
   }
 

@@ -224,10 +224,8 @@ struct Told {
     end = state;
   }
   [[nodiscard]] State at_end(const Scene& scene, const SlideScales& scales) const {
-    const auto& [wall, place, speed, pressed] = end.loose;
-    if (wall == Side::none) return scaled(end.x, end.v, place - end.x, speed - end.v, scales);
-    const double z = (wall == Side::upper ? scene.loose.upper : scene.loose.lower) + place;
-    return scaled(end.x, end.v, z, speed, scales);
+    const auto [z, w] = motion::place_in_housing(end, scene.loose);
+    return scaled(end.x, end.v, z, w, scales);
   }
 
   motion::State<double> end{};

@@ -52,7 +52,7 @@ SymmetricMotion symmetric_motion(const point::Problem& scene) {
 
 class Watch {
  public:
-  explicit Watch(const point::Problem& scene) : tangent(scene.oscillator, scene.loose) {}
+  explicit Watch(const point::Problem& scene) : tangent(scene) {}
   template <class A>
   void arc(const A& arc, double begin, double length) {
     tangent.arc(arc, begin, length);

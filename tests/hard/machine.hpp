@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace clatter::hard {
+
+inline constexpr double no_stop = std::numeric_limits<double>::infinity();
+
+/// A main mass, 1, with friction, between stops, that may carry a loose mass eps between two walls:
+///   x'' + 2h x' + k x + mu sgn x' = f sin(nu tau + phase) + load + soft stops, y'' = loose_load, z = y - x.
+/// A soft stop pushes with max(0, kappa depth + 2 zeta sqrt(kappa) depth'); one of infinite kappa is rigid.
+struct MachineScene {
+  double damping = 0, stiffness = 1, forcing = 0, frequency = 1, phase = 0, load = 0;
+  double friction = 0, static_friction = 0;  ///< levels; the static one is no less than the other
+  double lower = -no_stop, upper = no_stop;  ///< places of the stops; infinite: none
+  double restitution_lower = 1, restitution_upper = 1;
+  double kappa_lower = no_stop, kappa_upper = no_stop;
+  double zeta_lower = 0, zeta_upper = 0;
+  double loose_mass = 0;  ///< eps; 0: none
+  double wall_lower = -no_stop, wall_upper = no_stop;
+  double wall_R_lower = 1, wall_R_upper = 1;
+  double loose_load = 0;
+  double x = 0, v = 0;  ///< of the main mass at the start
+  double z = 0, w = 0;  ///< of the loose mass at the start, as seen from the main one
+  double step = 0.1;    ///< the longest of a Taylor step, times the fastest rate of the motion
+};
+
+/// What happens at an instant.
+struct MachineEvent {
+  enum class Kind : std::uint8_t {
+    stop_impact,  ///< of the main mass on a rigid stop
+    wall_impact,  ///< of the loose mass on a wall
+    rest,         ///< the main mass begins to rest on a rigid stop
+    rest_end,
+    stick,  ///< friction begins to hold the main mass, away from rigid stops
+    stick_end,
+    reversal,  ///< the velocity of the main mass passes 0 under friction
+    press,     ///< a wall begins to take the loose mass along
+    release,
+    touch,       ///< of a soft stop at its place
+    separation,  ///< the force of a soft stop falls to 0
+    renewal,     ///< it rises again, beyond the stop's place
+    leave,       ///< the main mass comes back over the place of a soft stop that has no force
+  };
+  Kind kind;
+  int side;                   ///< 1: the upper stop or wall, -1: the lower one, 0: none
+  long double time;           ///< tau
+  long double before, after;  ///< z' of an impact on a wall, x' otherwise
+};
+
+/// A motion from its start.
+struct MachineRun {
+  std::vector<MachineEvent> events{};
+  long double x = 0, v = 0, z = 0, w = 0;  ///< at the end
+  /// How near the run was to another course: the least of the speed of a contact, the clearance of a near miss, and
+  /// the margin by which a mass was held or let go, each as part of the largest since the last such event.
+  long double closest = 1;
+  std::size_t impacts = 0;
+  bool finished = false;  ///< false: more impacts than allowed, or an endless change between modes
+};
+
+/// Simulates a scene by Taylor series in 113 bits. It shares nothing with the program: no closed form, no root finder,
+/// no sum over chatter. Impacts are followed one by one until a rebound has less than 1e-26 of the fastest speed or
+/// takes less than 1e-27 of the unit of time.
+[[nodiscard]] MachineRun run_machine(const MachineScene& scene, double duration, std::size_t most_impacts);
+
+}  // namespace clatter::hard

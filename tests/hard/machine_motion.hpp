@@ -1,0 +1,213 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hard/machine.hpp"
+#include "hard/machine_series.hpp"
+
+namespace clatter::hard::machine {
+
+/// A stop or a wall.
+struct Contact {
+  bool exists, is_soft;
+  Quad place, restitution, kappa, damper;
+};
+[[nodiscard]] inline Contact contact(double place, double restitution, double kappa, double zeta) {
+  const bool is_soft = std::isfinite(kappa);
+  return {std::isfinite(place),
+          is_soft,
+          place,
+          restitution,
+          is_soft ? kappa : 0,
+          is_soft ? 2 * Quad(zeta) * sqrtq(kappa) : 0};
+}
+
+/// A quantity that ends a mode when it falls to 0.
+struct Guard {
+  enum class Of : std::uint8_t { stop, wall, still, hold, force_gone, force_back, left, press };
+  Of of;
+  int side;
+  Series p;
+  Quad size;          ///< of the forces in it: terms far below are rounding
+  std::size_t level;  ///< the power of u at which forces come in
+};
+
+/// Takes rounding for 0 where a guard starts at 0, so that its first derivative that isn't 0 tells its sign.
+[[nodiscard]] inline Guard cleaned(Guard guard) {
+  for (std::size_t n = 0; n < terms; ++n) {
+    if (guard.p[n] != 0 && (n < guard.level || size_of(guard.p[n]) > Quad(1e-30) * guard.size)) break;
+    guard.p[n] = 0;
+  }
+  return guard;
+}
+/// The sign of a guard right after the start of a step, 0 if it stays 0.
+[[nodiscard]] inline int sign_after_start(const Guard& guard) {
+  for (const Quad term : cleaned(guard).p)
+    if (term != 0) return term > 0 ? 1 : -1;
+  return 0;
+}
+
+/// How the masses move, but for soft stops.
+struct Mode {
+  bool held = false;  ///< the main mass doesn't move
+  int slip = 0;       ///< the side to which it moves, against friction
+  int pressed = 0;    ///< the wall that takes the loose mass along; 0: it flies
+};
+
+/// A scene, the state of its masses at an instant, and what becomes of it in a mode.
+struct Motion {
+  explicit Motion(const MachineScene& s) : scene(s), anchor(s.x), v(s.v), wall_anchor(s.z), w(s.w) {
+    mus = std::max(scene.static_friction, scene.friction);
+    stops = {contact(scene.lower, scene.restitution_lower, scene.kappa_lower, scene.zeta_lower),
+             contact(scene.upper, scene.restitution_upper, scene.kappa_upper, scene.zeta_upper)};
+    walls = {contact(scene.wall_lower, scene.wall_R_lower, no_stop, 0),
+             contact(scene.wall_upper, scene.wall_R_upper, no_stop, 0)};
+    has_loose = scene.loose_mass > 0 && (walls[0].exists || walls[1].exists);
+    if (!has_loose) walls[0].exists = walls[1].exists = false;
+    for (const int side : {-1, 1})
+      if (stop(side).exists && stop(side).is_soft && side * (anchor - stop(side).place) > 0)
+        q = anchor - stop(side).place, anchor = stop(side).place, around = side, has_force = true;
+  }
+
+  [[nodiscard]] const Contact& stop(int side) const { return stops[side > 0]; }
+  [[nodiscard]] const Contact& wall(int side) const { return walls[side > 0]; }
+  [[nodiscard]] bool is_on_rigid(int side) const {
+    return stop(side).exists && !stop(side).is_soft && q == 0 && anchor == stop(side).place;
+  }
+  [[nodiscard]] bool is_on_wall(int side) const {
+    return wall(side).exists && r == 0 && wall_anchor == wall(side).place;
+  }
+  [[nodiscard]] Quad kappa() const { return has_force ? stop(around).kappa : 0; }
+  [[nodiscard]] Quad damper() const { return has_force ? stop(around).damper : 0; }
+  [[nodiscard]] Quad stiffness() const { return scene.stiffness + kappa(); }
+  [[nodiscard]] Quad twice_damping() const { return 2 * Quad(scene.damping) + damper(); }
+
+  // Forces.
+
+  /// All that doesn't depend on the motion within a step.
+  [[nodiscard]] Series push(const Mode& mode, Quad step) const {
+    const Quad angle = Quad(scene.frequency) * time + scene.phase, sine = sinq(angle), cosine = cosq(angle);
+    const std::array<Quad, 4> derivatives{sine, cosine, -sine, -cosine};
+    Series force{};
+    Quad factor = scene.forcing;  // times (nu step)^n / n!
+    for (std::size_t n = 0; n < terms && factor != 0; ++n) {
+      force[n] = factor * derivatives[n % 4];
+      factor *= scene.frequency * step / number(n + 1);
+    }
+    force[0] += scene.load - scene.stiffness * anchor - mode.slip * Quad(scene.friction);
+    if (mode.pressed != 0) force[0] += Quad(scene.loose_mass) * scene.loose_load;
+    return force;
+  }
+  /// The sum of the sizes of all forces.
+  [[nodiscard]] Quad force_size() const {
+    const Quad loose = has_loose ? (1 + Quad(scene.loose_mass)) * size_of(scene.loose_load) : 0;
+    const Quad elastic = size_of(scene.stiffness * anchor) + size_of(stiffness() * q);
+    return size_of(scene.forcing) + size_of(scene.load) + elastic + size_of(twice_damping() * v) + mus + loose;
+  }
+  /// Of the main mass, alone.
+  [[nodiscard]] Quad acceleration(int slip) const {
+    return push({false, slip, 0}, 1)[0] - stiffness() * q - twice_damping() * v;
+  }
+
+  // The motion in a mode.
+
+  [[nodiscard]] Quad step_of(const Mode& mode) const {
+    const Quad forced = scene.forcing != 0 ? scene.frequency : 0;
+    const Quad own = mode.held ? Quad(0) : sqrtq(size_of(stiffness())) + twice_damping();
+    return Quad(scene.step) / std::max({forced, own, Quad(1e-3)});
+  }
+  [[nodiscard]] Series main_series(const Mode& mode, Quad step) const {
+    Series x{q, v * step};
+    if (mode.held) return x;
+    const Series force = push(mode, step);
+    const Quad mass = mode.pressed != 0 ? 1 + Quad(scene.loose_mass) : 1;
+    const Quad pulled = step * step / mass, damped = twice_damping() * step / mass, k = stiffness();
+    for (std::size_t n = 0; n + 2 < terms; ++n)
+      x[n + 2] = (pulled * (force[n] - k * x[n]) / number(n + 1) - damped * x[n + 1]) / number(n + 2);
+    return x;
+  }
+  [[nodiscard]] Series loose_series(const Mode& mode, const Series& x, Quad step) const {
+    Series way{r, w * step};
+    if (mode.pressed != 0 || !has_loose) return way;
+    for (std::size_t n = 2; n < terms; ++n) way[n] = -x[n];
+    way[2] += scene.loose_load * step * step / 2;
+    return way;
+  }
+
+  // Guards.
+
+  [[nodiscard]] Guard gap(Guard::Of of, int side, const Series& way, Quad room, Quad step) const {
+    Guard guard{of, side, {}, force_size() * step * step, 2};
+    for (std::size_t n = 0; n < terms; ++n) guard.p[n] = -side * way[n];
+    guard.p[0] += side * room;
+    return guard;
+  }
+  [[nodiscard]] Guard wall_gap(int side, const Series& way, Quad step) const {
+    return gap(Guard::Of::wall, side, way, wall(side).place - wall_anchor, step);
+  }
+  /// What is left of the static level for a push to a side.
+  [[nodiscard]] Guard hold(int side, const Mode& mode, Quad step) const {
+    Guard guard{Guard::Of::hold, side, push(mode, step), force_size(), 0};
+    guard.p[0] -= stiffness() * q;
+    for (Quad& term : guard.p) term *= -side;
+    guard.p[0] += mus;
+    return guard;
+  }
+  [[nodiscard]] Guard still(int side, const Series& x, Quad step) const {
+    Guard guard{Guard::Of::still, side, {}, force_size() * step * step, 1};
+    for (std::size_t n = 0; n + 1 < terms; ++n) guard.p[n] = side * number(n + 1) * x[n + 1];
+    return guard;
+  }
+  /// The force of the soft stop around, in its direction or against it.
+  [[nodiscard]] Guard force(Guard::Of of, int sign, const Series& x, Quad step) const {
+    const auto& [exists, is_soft, place, R, kappa, damper] = stop(around);
+    Guard guard{of, around, {}, kappa * size_of(q) + damper * size_of(v), 0};
+    for (std::size_t n = 0; n + 1 < terms; ++n)
+      guard.p[n] = sign * around * (kappa * x[n] + damper * number(n + 1) * x[n + 1] / step);
+    return guard;
+  }
+  [[nodiscard]] Guard press(const Mode& mode, const Series& x, Quad step) const {
+    Guard guard{Guard::Of::press, mode.pressed, {}, force_size(), 0};
+    for (std::size_t n = 0; n + 2 < terms; ++n)
+      guard.p[n] = -mode.pressed * number((n + 1) * (n + 2)) * x[n + 2] / (step * step);
+    guard.p[0] += mode.pressed * Quad(scene.loose_load);
+    return guard;
+  }
+  [[nodiscard]] std::vector<Guard> guards(const Mode& mode, const Series& x, const Series& way, Quad step) const {
+    using Of = Guard::Of;
+    std::vector<Guard> rows;
+    for (const int side : {-1, 1}) {
+      if (mode.held && !is_on_rigid(side)) rows.push_back(hold(side, mode, step));
+      if (!mode.held && around == 0 && stop(side).exists)
+        rows.push_back(gap(Of::stop, side, x, stop(side).place - anchor, step));
+      if (mode.pressed == 0 && wall(side).exists) rows.push_back(wall_gap(side, way, step));
+    }
+    if (!mode.held && mode.pressed != 0) rows.push_back(press(mode, x, step));
+    if (!mode.held && mus > 0) rows.push_back(still(mode.slip, x, step));
+    if (!mode.held && has_force) rows.push_back(force(Of::force_gone, 1, x, step));
+    if (!mode.held && around != 0 && !has_force) {
+      rows.push_back(force(Of::force_back, -1, x, step));
+      rows.push_back(gap(Of::left, -around, x, 0, step));
+    }
+    for (Guard& guard : rows) guard = cleaned(guard);
+    return rows;
+  }
+
+  // The state.
+
+  MachineScene scene;
+  Quad mus = 0, time = 0;
+  std::array<Contact, 2> stops{}, walls{};
+  bool has_loose = false;
+  Quad anchor, q = 0, v;       ///< of the main mass: its place counts from a stop, for the digits of short flights
+  Quad wall_anchor, r = 0, w;  ///< of the loose mass, as seen from the main one, likewise
+  int around = 0;              ///< the soft stop beyond whose place the main mass is; then it is the anchor
+  bool has_force = false;      ///< and that stop pushes
+};
+
+}  // namespace clatter::hard::machine
