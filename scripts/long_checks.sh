@@ -16,7 +16,7 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   slides       COUNT scenes with dry friction, event by event, against Taylor series (default 10000; about 30 ms each)
   carried      COUNT scenes with a loose mass, event by event, against Taylor series (default 10000; about 60 ms each)
   machines     COUNT scenes with stops and friction, and as many with a loose mass, against Taylor series in 113 bits
-               (default 1000; about 0.2 s each)
+               (default 1000; about 0.3 s each)
   attractors   the motions of COUNT scenes, numbered and told apart by long runs (default 1000; about 0.5 s each)
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
   kills        COUNT runs killed, each sweep again and again until it is done  (default 1000; about 0.5 s each)
