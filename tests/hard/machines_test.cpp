@@ -135,7 +135,7 @@ void compare(const Kind& kind, bool sums_chatter) {
     }
     ++scenes, contacts += program.contacts.size();
     if (!sums_chatter) {
-      const bool agrees = first_difference(program, reference, 1e-4) >= known;
+      const bool agrees = first_difference(program, reference, instant) >= known;
       same.take(any, agrees ? 0 : std::numeric_limits<double>::infinity());
     }
     if (!is_decided || growth > 1e-6) return;
