@@ -15,8 +15,8 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   soft         COUNT scenes with soft stops against 50 digits and a general solver (default 100000; about 0.1 s each)
   slides       COUNT scenes with dry friction, event by event, against Taylor series (default 10000; about 30 ms each)
   carried      COUNT scenes with a loose mass, event by event, against Taylor series (default 10000; about 60 ms each)
-  machines     COUNT scenes with stops and friction, and as many with a loose mass, against Taylor series in 113 bits
-               (default 1000; about 0.3 s each)
+  machines     COUNT scenes with stops and friction, with a loose mass, and with all of them at once, against Taylor
+               series in 113 bits (default 1000; about 0.5 s each)
   attractors   the motions of COUNT scenes, numbered and told apart by long runs (default 1000; about 0.5 s each)
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
   kills        COUNT runs killed, each sweep again and again until it is done  (default 1000; about 0.5 s each)

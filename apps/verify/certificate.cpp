@@ -26,12 +26,18 @@ std::optional<Certificate::StopNumbers> stop_of(const Field& scene, const char* 
 Certificate::LooseNumbers loose_of(const Field& scene, const Field& field) {
   for (const char* const name : {"lower", "upper", "friction", "friction_static"})
     if (const auto other = scene.find(name)) other->refuse("is given beside a loose mass", "leave it out");
-  Certificate::LooseNumbers loose{field.get("mass").number_from(0, Field::infinity, false),
-                                  field.get("R").number_from(0, 1),
-                                  field.get("load").number(),
-                                  {}};
-  for (const Side side : {Side::lower, Side::upper})
-    if (const auto wall = field.find(name_of(side))) loose.walls[index_of(side)] = wall->get("position").number();
+  Certificate::LooseNumbers loose{
+      field.get("mass").number_from(0, Field::infinity, false), {}, field.get("load").number(), {}};
+  const auto both = field.find("R");
+  for (const Side side : {Side::lower, Side::upper}) {
+    const auto wall = field.find(name_of(side));
+    if (both) loose.R[index_of(side)] = both->number_from(0, 1);
+    if (!wall) continue;
+    loose.walls[index_of(side)] = wall->get("position").number();
+    const auto own = wall->find("R");
+    if (own && both) own->refuse("is given beside that of both walls", "leave one of them out");
+    if (!both) loose.R[index_of(side)] = wall->get("R").number_from(0, 1);
+  }
   const auto& [lower, upper] = loose.walls;
   if (!lower && !upper) field.refuse("has no walls", "give lower, upper or both");
   if (lower && upper && !(*lower < *upper)) field.refuse("has its lower wall above the upper one", "exchange them");

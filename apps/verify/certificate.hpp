@@ -66,7 +66,9 @@ struct Certificate {
     Number R, stiffness, damping;
   };
   struct LooseNumbers {
-    Number mass, R, load;
+    Number mass;
+    std::array<Number, 2> R;  ///< [wall]
+    Number load;
     std::array<std::optional<Number>, 2> walls;
   };
   struct SceneNumbers {

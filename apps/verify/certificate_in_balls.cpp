@@ -67,7 +67,8 @@ BasicScene<T> scene_made(const Certificate::SceneNumbers& shape, const Of& of) {
 Scene Certificate::scene_in_balls() const {
   Scene made = scene_made<Ball>(scene, [&](const auto& number_in) { return number_in(scene).ball(); });
   if (!scene.loose) return made;
-  LooseMass loose{scene.loose->mass.ball(), scene.loose->R.ball(), scene.loose->load.ball(), {}};
+  const auto& R = scene.loose->R;
+  LooseMass loose{scene.loose->mass.ball(), {R[0].ball(), R[1].ball()}, scene.loose->load.ball(), {}};
   for (std::size_t i = 0; i < 2; ++i)
     if (scene.loose->walls[i]) loose.walls[i] = scene.loose->walls[i]->ball();
   made.loose = loose;

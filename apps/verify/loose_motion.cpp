@@ -181,8 +181,9 @@ Event LooseMotion::hit_at_start() {
 /// An impact (eq. 70). Without a rebound the wall presses the loose mass, or is left at once.
 void LooseMotion::rebound(Side side) {
   wall_ = side, vanishing_ = 1;
-  kick_ = (Ball(1) + loose_.R) * loose_.share(), turn_ = -loose_.R;
-  if (loose_.R.is_zero()) rest_or_leave();
+  const Ball& R = loose_.restitution(side);
+  kick_ = (Ball(1) + R) * loose_.share(), turn_ = -R;
+  if (R.is_zero()) rest_or_leave();
 }
 
 /// A loose mass on a wall with z' = 0.

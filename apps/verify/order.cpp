@@ -10,7 +10,7 @@ Ball latest(const Claimed& claimed) { return claimed.value.ball() + claimed.erro
 
 /// Whether walls or a stop take all speed in an impact.
 bool is_inelastic(const Certificate::SceneNumbers& scene, Side side) {
-  if (scene.loose) return scene.loose->R.ball().is_zero();
+  if (scene.loose) return scene.loose->R[index_of(side)].ball().is_zero();
   const auto& stop = scene.stops[index_of(side)];
   return stop && !stop->soft && stop->R.ball().is_zero();
 }

@@ -31,6 +31,7 @@ class LooseMotion::Chatter {
   const LooseMass& loose_;
   const Scene& scene_;
   Side side_;
+  Ball R_;                        ///< of the wall
   Ball time_, w_, now_;           ///< of the impact; the speed after it; -zeta'' there
   Ball longest_, height_, fast_;  ///< bounds of the time of all rebounds, of zeta and of its rate
   Ball least_, most_, jerk_;      ///< bounds of -zeta'' and of its rate
@@ -41,12 +42,12 @@ class LooseMotion::Chatter {
 };
 
 LooseMotion::Chatter::Chatter(const LooseMotion& motion)
-    : loose_(motion.loose_), scene_(motion.scene_), side_(motion.wall_) {
+    : loose_(motion.loose_), scene_(motion.scene_), side_(motion.wall_), R_(loose_.restitution(side_)) {
   const Four before = motion.set_.hull();
   time_ = before[0], w_ = abs(motion.turn_ * before[3]), now_ = motion.pressing();
   q_ = loose_.share() / (Ball(1) + loose_.mass);
-  if (!now_.is_positive() || !(loose_.R < Ball(1))) throw Undecided("whether a chatter ends");
-  longest_ = (Ball(4) * w_ / (now_ * (Ball(1) - loose_.R))).upper();
+  if (!now_.is_positive() || !(R_ < Ball(1))) throw Undecided("whether a chatter ends");
+  longest_ = (Ball(4) * w_ / (now_ * (Ball(1) - R_))).upper();
   height_ = (square(w_) / now_).upper(), fast_ = Ball(2) * w_.upper();
   const Flow& both = motion.flows_->as_one;
   const Ball window = Ball::hull(Ball(0), longest_);
@@ -72,9 +73,9 @@ LooseMotion::Rebounds LooseMotion::Chatter::rebounds() const {
   if (!least_.is_positive() || !(square(w_) / (Ball(2) * least_) <= height_)) throw Undecided("whether a chatter ends");
   if (const auto& far = loose_.walls[index_of(opposite(side_))])
     if (!(height_ < abs(*far - loose_.wall(side_)))) throw Undecided("whether a chatter reaches the other wall");
-  const Ball slowest = loose_.R * sqrt(most_ / least_), quickest = loose_.R * sqrt(least_ / most_);
+  const Ball slowest = R_ * sqrt(most_ / least_), quickest = R_ * sqrt(least_ / most_);
   const Ball narrow = jerk_ * longest_ / least_;
-  if (!(slowest < Ball(1)) || !(narrow < Ball(0.125)) || !(loose_.R * (Ball(1) + Ball(4) * narrow) < Ball(1)))
+  if (!(slowest < Ball(1)) || !(narrow < Ball(0.125)) || !(R_ * (Ball(1) + Ball(4) * narrow) < Ball(1)))
     throw Undecided("whether a chatter ends");
   const Ball shortest = Ball(2) * w_ / (most_ * (Ball(1) - quickest)),
              lasts = Ball(2) * w_ / (least_ * (Ball(1) - slowest));
@@ -86,7 +87,7 @@ LooseMotion::Rebounds LooseMotion::Chatter::rebounds() const {
   const FirstChange by[4] = {{one, zero, centre_speed_.x, centre_speed_.y},
                              {zero, zero, one, zero},
                              {zero, zero, zero, one},
-                             {zero, loose_.R, zero, loose_.share()}};
+                             {zero, R_, zero, loose_.share()}};
   for (std::size_t i = 0; i < 4; ++i) {
     const Ball change = area(by[i]);
     left.uncertainty[0][i] = Ball::around_zero(kick_.x * change);
@@ -113,8 +114,8 @@ LooseMotion::Chatter::Change LooseMotion::Chatter::grown(const FirstChange& firs
   const Ball x = abs(along_.a) * first.x + abs(along_.b) * (first.v + push);
   const Ball v = abs(along_.c) * first.x + abs(along_.d) * (first.v + push);
   const Ball speeds =
-      (first.speed + loose_.R * (Ball(5) * most_ * e * change.late + (Ball(1) + most_ * per_speed) * pushed)) /
-      (Ball(1) - loose_.R * (Ball(1) + Ball(4) * e));
+      (first.speed + R_ * (Ball(5) * most_ * e * change.late + (Ball(1) + most_ * per_speed) * pushed)) /
+      (Ball(1) - R_ * (Ball(1) + Ball(4) * e));
   return {first.late + Ball(3) * e * change.late + per_speed * (change.speeds + pushed), speeds,
           k * (x + loose_.share() * place) + two_h * (v + loose_.share() * rate)};
 }

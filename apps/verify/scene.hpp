@@ -33,10 +33,12 @@ struct BasicStop {
 template <class Number>
 struct BasicLooseMass {
   Number mass;                                 ///< over the main mass
-  Number R, load;                              ///< restitution of both walls, acceleration in flight
+  std::array<Number, 2> R;                     ///< restitution [wall]
+  Number load;                                 ///< acceleration in flight
   std::array<std::optional<Number>, 2> walls;  ///< z [side]
 
   [[nodiscard]] const Number& wall(Side side) const { return *walls[index_of(side)]; }
+  [[nodiscard]] const Number& restitution(Side side) const { return R[index_of(side)]; }
   /// The share of both masses that it is: of a jump of z' the main mass takes so much.
   [[nodiscard]] Number share() const { return mass / (Number(1) + mass); }
 };
@@ -65,7 +67,8 @@ template <class Number>
 [[nodiscard]] std::optional<Number> mirror_centre(const BasicScene<Number>& scene) {
   const auto& [lower, upper] = scene.stops;
   if (const auto& loose = scene.loose)  // its housing has the mirror image that it is about its own middle
-    if (!loose->load.is_zero() || !loose->walls[0] || !loose->walls[1]) return std::nullopt;
+    if (!loose->load.is_zero() || !loose->walls[0] || !loose->walls[1] || !(loose->R[0] - loose->R[1]).is_zero())
+      return std::nullopt;
   if (lower.has_value() != upper.has_value()) return std::nullopt;
   if ((scene.k.is_zero() || !scene.k.is_constant()) && !scene.load.is_zero()) return std::nullopt;
   if (!lower) return scene.k.is_zero() ? Number(0) : scene.load / scene.k;

@@ -51,7 +51,8 @@ double range_error(double low, double high, const observables::Range& reference)
 std::vector<Event> events_of(const point::PointResult& result, bool is_in_housing) {
   std::vector<Event> events;
   for (const observables::LoggedImpact& impact : result.log)
-    events.push_back({Event::Kind::impact, impact.side, impact.time, impact.before, 0.0, impact.after});
+    events.push_back(
+        {Event::Kind::impact, static_cast<Side>(impact.stop), impact.time, impact.before, 0.0, impact.after});
   events.insert(events.end(), result.rests.begin(), result.rests.end());
   std::ranges::stable_sort(events, {}, &Event::time);  // an impact before the rest that it begins
   return is_in_housing ? with_slow_impacts_summed(events) : events;

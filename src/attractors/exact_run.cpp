@@ -93,7 +93,7 @@ std::optional<Round> run_round(const point::Problem& problem, std::size_t period
   const auto motion = point::ExactMotion::of(problem);
   point::MotionRecorder recorder(motion->stops());
   recorder.keep_events();
-  if (has_loose_mass(problem.loose)) recorder.loose.emplace(problem.oscillator, problem.loose);
+  if (has_loose_mass(problem.loose)) recorder.loose.emplace(problem);
   motion::State<double> start = motion->start();
   if (sections.empty() && motion->begin_cycle(start) != stepping::Outcome::completed) return std::nullopt;
   auto orbit = steady::orbit_from(start, periods, recorder.watch, [&](motion::State<double>& state) {

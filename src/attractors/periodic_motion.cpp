@@ -83,8 +83,8 @@ SectionState after_impact(const Scene& scene, SectionState state, double size) {
   const LooseMass& loose = scene.loose;
   const double wall = state.w < 0 ? loose.lower : loose.upper;
   if (state.w != 0 && std::abs(state.z - wall) <= same_motion * size) {
-    const motion::WallRule<double> rule{loose.ratio, {loose.restitution}};
-    state.v = rule.main_after(state.v, state.w), state.w = rule.law.after(state.w);
+    const motion::WallRule<double> rule(loose);
+    state.v = rule.main_after(state.v, state.w), state.w = rule.law_for(state.w).after(state.w);
   }
   return state;
 }

@@ -33,7 +33,8 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
   problem.loose = {.ratio = mix(one.ratio, other.ratio),
                    .lower = mix(one.lower, other.lower),
                    .upper = mix(one.upper, other.upper),
-                   .restitution = mix(one.restitution, other.restitution),
+                   .restitution_lower = mix(one.restitution_lower, other.restitution_lower),
+                   .restitution_upper = mix(one.restitution_upper, other.restitution_upper),
                    .load = mix(one.load, other.load)};
   return problem;
 }

@@ -175,7 +175,7 @@ results::Dataset branch_dataset(const Branches& branches, const BranchSettings& 
                {"meeting"});
   if (settings.births) specials.add("left_out", std::move(left_out), "1: a birth there isn't followed");
   specials.add_motions(at, settings, branches.word_sticks);
-  sweep::add_drawn_names(units.is_si, dataset, in_housing);
+  sweep::add_drawn_names(units.is_si, dataset, in_housing, in_housing);
   name_observables(dataset);
   return dataset;
 }

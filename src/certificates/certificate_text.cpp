@@ -28,9 +28,15 @@ Json json_of(const Stops& stops, Side side) {
 }
 
 Json json_of(const LooseMass& loose) {
-  Json json{{"mass", loose.ratio}, {"R", loose.restitution}, {"load", loose.load}};
-  if (std::isfinite(loose.lower)) json["lower"] = {{"position", loose.lower}};
-  if (std::isfinite(loose.upper)) json["upper"] = {{"position", loose.upper}};
+  const bool are_alike = loose.restitution_lower == loose.restitution_upper;
+  Json json{{"mass", loose.ratio}, {"load", loose.load}};
+  if (are_alike) json["R"] = loose.restitution_lower;
+  const auto add_wall = [&](const char* name, double position, double R) {
+    if (!std::isfinite(position)) return;
+    json[name] = {{"position", position}};
+    if (!are_alike) json[name]["R"] = R;
+  };
+  add_wall("lower", loose.lower, loose.restitution_lower), add_wall("upper", loose.upper, loose.restitution_upper);
   return json;
 }
 

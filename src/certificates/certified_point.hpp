@@ -21,6 +21,7 @@ enum class Without : std::uint8_t {
   graze,          ///< the smallest change of the motion decides whether it meets a stop
   cut_chatter,    ///< it ends within a chatter
   rounding,       ///< the motion stretches rounding so much that its events aren't known
+  both_masses,    ///< beside a loose mass the main one has events of its own
   no_such_claim,  ///< a special point of a kind, or of a motion, that the format has no claim of
 };
 

@@ -75,7 +75,7 @@ ClaimedEvent HousingBounds::claimed(const RecordedEvent<4>& event, const Claimed
     claim.then.error = release_error(event);
     return claim;
   }
-  const double R = Restitution<double>{loose_.restitution}.share_at_rest(),
+  const double R = motion::WallRule<double>(loose_).law(event.side).share_at_rest(),
                force = std::abs(loose_.load - acceleration(event));
   claim.time.error = before->time.error;
   claim.then.error = of_chatter * event.length + time_error(event.end()) + before->time.error +

@@ -80,7 +80,7 @@ std::vector<RecordedEvent<4>> with_chatters(std::vector<RecordedEvent<4>> events
 std::optional<RecordedMotion<4>> recorded_in_housing(const point::Problem& problem, double turns) {
   const auto motion = point::ExactMotion::of(problem);
   point::MotionRecorder recorder(motion->stops());
-  recorder.loose.emplace(problem.oscillator, problem.loose);
+  recorder.loose.emplace(problem);
   recorder.keep_derivatives();
   motion::State<double> state = motion->start();
   if (motion->run_for(state, turns, recorder) != stepping::Outcome::completed) return std::nullopt;

@@ -19,6 +19,8 @@ std::string reason_of(const CertifiedPoint& point) {
       return "one of a family";
     case Without::cut_chatter:
       return "cut within a chatter";
+    case Without::both_masses:
+      return "with events of both masses";
     case Without::no_such_claim:
       return "special without a claim of its kind";
     case Without::rounding:

@@ -104,6 +104,10 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   auto& observed = sweep.problem.observe;
   observed.loose_extrema = observed.loose_impacts = observed.loose_trajectory = observed.loose_section =
       observed.loose_stability = observed.loose_attractor = observed.loose_sensitivity = has_loose_mass(settings);
+  if (has_loose_mass(settings) && has_main_events(settings)) {
+    observed.loose_impacts = false;
+    observed.wall_impacts = observed.wall_energy = observed.wall_log = observed.word_walls = true;
+  }
   sweep.problem.observe.of_friction = sweep.problem.observe.of_sticks = has_friction_somewhere(settings);
   if (sweep.follow) sweep.direction = direction_of(settings), observed.followed_attractor = true;
   for (const std::vector<std::size_t>& group : groups) {
@@ -237,7 +241,7 @@ Config config_of(ParsedConfig parsed) {
   spread_sobol(settings);
   const AxisGroups groups = group_axes(settings);
   check_housing(settings, groups);
-  if (!has_loose_mass(settings)) check_stops_and_start(settings, groups);
+  check_stops_and_start(settings, groups);
   check_soft_stops(settings, groups);
   check_sensitivity(settings);
   Config config;

@@ -47,24 +47,42 @@ void check_walls(const Settings& settings, const AxisGroups& groups) {
        "'loose_mass' without walls, so that it never strikes; give loose_gap, loose_lower or loose_upper");
 }
 
-/// The main mass has a spring, no stops and no friction, and nothing shakes but its base.
-void check_main_mass(const Settings& settings) {
+/// The place of a stop of the main mass, or nullptr.
+const SourceLocation* place_of_stop(const Settings& settings) {
   const auto is_finite = [](double value) { return std::isfinite(value); };
   for (const Parameter stop : std::array<Parameter, 4>{"xs", "gap", "stop_lower", "stop_upper"})
-    if (const SourceLocation* const place = place_of(settings.given(stop), is_finite))
-      refuse(*place, in_quotes(stop.key()), "leave it out: the walls of a loose mass are loose_lower and loose_upper");
+    if (const SourceLocation* const place = place_of(settings.given(stop), is_finite)) return place;
+  return nullptr;
+}
+
+/// What the main mass has beside the loose one that some ways to use a scene don't know, and its place.
+struct Own {
+  const SourceLocation* place = nullptr;
+  std::string name{};
+};
+Own own_of(const Settings& settings) {
+  if (const SourceLocation* const place = place_of_stop(settings)) return {place, "a stop of the main mass"};
   for (const Parameter level : std::array<Parameter, 2>{"friction", "friction_static"})
     if (const SourceLocation* const place = place_of_nonzero(settings.given(level)))
-      refuse(*place, in_quotes(level.key()), "leave out one of them");
+      return {place, "friction of the main mass"};
+  if (const SourceLocation* const place =
+          place_of(settings.given("stiffness"), [](double value) { return !(value > 0); }))
+    return {place, "a stiffness that is not above 0"};
+  return {};
+}
+
+/// The stops of the main mass, and its friction, stand on the ground on which its motion is computed.
+void check_main_mass(const Settings& settings) {
   if (const SourceLocation* const place = place_of_nonzero(settings.given("stop_amplitude")))
     refuse(*place, "'stop_amplitude'", "give base_amplitude, whose base carries the spring");
   if (const Setting* const start = settings.given("start_period"))
     refuse(start->key_location, "'start_period'", "give x0 and v0 instead");
-  const Setting* const spring = settings.given("stiffness");
-  if (spring == nullptr && settings.is_si())
-    fail(settings.location_of_section("machine"), "'loose_mass' on a mass without a spring; give a stiffness > 0");
-  if (const SourceLocation* const place = place_of(spring, [](double value) { return !(value > 0); }))
-    refuse(*place, "a stiffness that is not above 0", "give a spring, since the main mass has no stops");
+  const Own own = own_of(settings);
+  const SourceLocation* const shaken = place_of_nonzero(settings.given("base_amplitude"));
+  if (own.place != nullptr && shaken != nullptr)
+    fail(*own.place, own.name +
+                         " conflicts with 'base_amplitude' beside 'loose_mass', since a frame that moves with "
+                         "the base would push the loose mass, too; leave one of the three out");
 }
 
 /// Steady motion and sections are those of a force, or of a base that is shaken, at every point.
@@ -85,14 +103,18 @@ void check_force(const Settings& settings, const AxisGroups& groups) {
     refuse(section->key_location, "a section without a force", "give " + key + ", or observe a trajectory");
 }
 
-/// Refuses a branch along what a scene with a loose mass doesn't have.
-void check_followed(const Settings& settings) {
+/// Refuses a branch along what a scene with a loose mass doesn't have, or of a main mass with events of its own.
+void check_followed(const Settings& settings, const Own& own) {
   const std::optional<Parameter> along = followed(settings);
   if (!along) return;
+  if (own.place != nullptr)
+    fail(*own.place, own.name + " conflicts with [branch] beside 'loose_mass'; run a sweep, and give it follow = " +
+                         in_quotes(along->key()));
   const Setting &place = *settings.find("branch", "along"), *const range = settings.find("branch", "range");
   if (conflicts_with_loose_mass(*along))
-    refuse(place.location, "along = " + in_quotes(along->key()),
-           "the main mass has neither stops nor friction; follow loose_gap, loose_lower, loose_upper or loose_R");
+    refuse(
+        place.location, "along = " + in_quotes(along->key()),
+        "branches have a main mass without stops and friction; follow loose_gap, loose_lower, loose_upper or loose_R");
   const bool needs_positive = *along == loose_mass || *along == Parameter("stiffness");
   if (needs_positive && range != nullptr && !(settings.interval("branch", "range")[0] > 0))
     fail(range->location, "range of " + in_quotes(along->key()) + " reaches 0, where there is no " +
@@ -105,11 +127,21 @@ void check_uses(const Settings& settings) {
   if (const Setting* const rests = settings.find("observe", "time_to_rest");
       rests != nullptr && settings.flag("observe", "time_to_rest"))
     refuse(rests->key_location, "'time_to_rest'",
-           "the main mass has neither stops nor friction that hold it; take word = true, which says which wall presses "
-           "the loose mass");
-  check_followed(settings);
+           "take word = true, which says which wall presses the loose mass, or a trajectory");
   if (const Setting* const across = settings.find("branch", "across"); across != nullptr)
     refuse(across->key_location, "'across'", "leave it and curve out, and follow branches at several values of it");
+  const Own own = own_of(settings);
+  check_followed(settings, own);
+  if (own.place == nullptr) return;
+  const auto refuse_own = [&](const std::string& beside, const std::string& way_out) {
+    fail(*own.place, own.name + " conflicts with " + beside + " beside 'loose_mass'; " + way_out);
+  };
+  if (!named_parameters(settings, "observe", "sensitivity").empty())
+    refuse_own("'sensitivity'", "leave that out, and take differences of runs");
+  if (settings.find("observe", "attractor") != nullptr && settings.flag("observe", "attractor"))
+    refuse_own("'attractor'", "leave that out, and take word = true");
+  if (settings.text("integrator", "method") == "moreau")
+    refuse_own("method = \"moreau\"", "take \"exact\" or \"dopri5\"");
 }
 
 }  // namespace
@@ -139,6 +171,10 @@ void check_housing(const Settings& settings, const AxisGroups& groups) {
 bool conflicts_with_loose_mass(Parameter parameter) {
   const bool is_of_stops = parameter.is_of_both() || parameter.side() != Side::none || parameter == "stop_amplitude";
   return !parameter.is_loose() && (is_of_stops || parameter.role() == Role::friction);
+}
+
+bool has_main_events(const Settings& settings) {
+  return place_of_stop(settings) != nullptr || has_friction_somewhere(settings);
 }
 
 bool has_loose_mass(const Settings& settings) { return settings.given(loose_mass) != nullptr; }

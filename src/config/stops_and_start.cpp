@@ -21,8 +21,10 @@ bool is_infinite(double value) { return std::isinf(value); }
 bool is_finite(double value) { return std::isfinite(value); }
 bool is_not_zero(double value) { return value != 0; }
 
-/// Throws ConfigError if at some point neither a spring nor a stop keeps the mass.
+/// Throws ConfigError if at some point neither a spring nor a stop keeps the mass. One that carries a loose mass may
+/// drift: it is the container of an impact damper.
 void check_unsprung(const Settings& settings, const AxisGroups& groups) {
+  if (has_loose_mass(settings)) return;
   const Setting* const given = settings.given("stiffness");
   if ((given == nullptr && !settings.is_si()) || settings.given_symmetric_stops() != nullptr) return;
   const std::array unbounded{Condition{given, [](double k) { return k <= 0; }},

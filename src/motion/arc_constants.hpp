@@ -23,6 +23,7 @@ class ArcConstants {
   static_assert(E == E.arc());  // the other effects don't change an arc, so they mustn't compile it again
 
  public:
+  static constexpr Effects effects = E;
   using Equation = EquationOfMotion<Number, E>;
 
   template <class Other = double>
@@ -43,7 +44,7 @@ class ArcConstants {
                                                const SoftStop<Number>& stop) requires(E.stiffness) {
     ArcConstants pressed =
         of(free.h + stop.damping, free.f, free.nu, free.load + stop.stiffness * stop.position, free.k + stop.stiffness);
-    pressed.stop = stop, pressed.friction = free.friction;
+    pressed.stop = stop, pressed.friction = free.friction, pressed.carried = free.carried;
     if (pressed.natural > 0) {
       pressed.origin = stop.position, pressed.balance = (free.load - free.k * stop.position) / pressed.k;
       pressed.equilibrium = pressed.origin + pressed.balance;

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cstddef>
+#include <tuple>
+
 #include "motion/polynomial_arc.hpp"
+#include "motion/relative_arc.hpp"
 
 namespace clatter::motion {
 
@@ -16,6 +20,21 @@ class PolynomialInHousing {
   PolynomialInHousing(const PolynomialArc<E>& main, double origin, double load, const Bernstein<double>& offset,
                       const Bernstein<double>& velocity)
       : main_(main), origin_(origin), load_(load), offset_(offset), velocity_(velocity) {}
+
+  /// Beside a step of the main mass: the parabola of the loose one less the way of that.
+  [[nodiscard]] static PolynomialInHousing beside(const PolynomialArc<E>& main, const RelativeStart<double>& from,
+                                                  double load) {
+    constexpr auto degree = static_cast<double>(std::tuple_size_v<Bernstein<double>> - 1);
+    const double way = from.v * main.length(), bend = load * main.length() * main.length() / 2;
+    Bernstein<double> offset, velocity;
+    for (std::size_t i = 0; i < offset.size(); ++i) {
+      const auto at = static_cast<double>(i);
+      const double share = at / degree, square = at * (at - 1) / (degree * (degree - 1));
+      offset[i] = from.offset + ((way * share + bend * square) - (main.offset()[i] - main.offset()[0]));
+      velocity[i] = from.w + (load * main.length() * share - (main.velocity()[i] - main.velocity()[0]));
+    }
+    return {main, from.origin, load, offset, velocity};
+  }
 
   [[nodiscard]] const ArcConstants<double, E>& constants() const { return main_.constants(); }
   [[nodiscard]] const PolynomialArc<E>& main() const { return main_; }  ///< of the main mass

@@ -31,7 +31,7 @@ class PullRule : public SlopedRule<PullRule<Number, E>, Number> {
     const auto& c = arc_.constants();
     const Number far = reach(c, here, time);
     const Number fast = c.nu * c.response.amplitude + c.natural * (far - c.response.amplitude);
-    return abs(c.f) + c.k * far + 2 * c.h * fast < sign_ * load_;
+    return abs(c.f) + abs(c.unbalanced) + abs(c.k) * far + 2 * c.h * fast < sign_ * load_;
   }
   [[nodiscard]] Number width(std::size_t, const Motion<Number>& here) const {
     using std::abs;

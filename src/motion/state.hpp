@@ -14,6 +14,8 @@ struct LooseState {
   Number place{};          ///< z less the place of that wall; without one y
   Number speed{};          ///< z'; without such a wall y'
   bool pressed = false;    ///< the wall presses it, so that it moves with the main mass
+  bool released = false;   ///< the wall lets it go at this instant: z' = 0, and z'' is exactly 0
+  bool may_part = false;   ///< pressed, but an event of the main mass has just changed its acceleration
 };
 
 /// The state of a run. Time is a forcing phase and a whole number of periods, so that no growing tau stands inside a
@@ -32,7 +34,7 @@ struct State {
   Side within = Side::none;     ///< the soft stop beyond whose position the mass is; then also `from_stop`
   bool pressed = false;         ///< that stop pushes the mass; false: the mass outruns it
   bool chatters = false;        ///< flies in a chatter that is summed, so its impacts aren't told
-  LooseState<Number> loose{};   ///< of a loose mass, if there is one; `released`: its wall releases it
+  LooseState<Number> loose{};   ///< of a loose mass, if there is one
   Number reach{};               ///< under friction: the longest way ahead in the present flight, by which its rounding
                                 ///< is judged wherever a section cuts it
 };

@@ -12,13 +12,22 @@ namespace clatter::motion {
 /// Impacts between a loose mass and the main mass (eq. 70): both momenta change by the same impulse.
 template <class Number>
 struct WallRule {
-  Number ratio;  ///< eps
-  Restitution<Number> law;
+  Number ratio;                      ///< eps
+  Restitution<Number> lower, upper;  ///< of the walls
+
+  template <class Other>
+  explicit WallRule(const BasicLooseMass<Other>& loose)
+      : ratio(loose.ratio), lower{Number(loose.restitution_lower)}, upper{Number(loose.restitution_upper)} {}
+
+  [[nodiscard]] const Restitution<Number>& law(Side wall) const { return wall == Side::upper ? upper : lower; }
+  /// That of the wall that a loose mass meets with z' = w.
+  [[nodiscard]] const Restitution<Number>& law_for(const Number& w) const { return w > 0 ? upper : lower; }
+  [[nodiscard]] bool loses() const { return lower.loses() || upper.loses(); }
 
   /// The share of a change of z' that the main mass takes: x' changes by this times (1 + R) z'.
   [[nodiscard]] Number share() const { return ratio / (1 + ratio); }
   /// x' after an impact at which z' is w.
-  [[nodiscard]] Number main_after(const Number& v, const Number& w) const { return v - share() * law.jump(w); }
+  [[nodiscard]] Number main_after(const Number& v, const Number& w) const { return v - share() * law_for(w).jump(w); }
   /// x' once the two move as one.
   [[nodiscard]] Number main_with(const Number& v, const Number& w) const { return v + share() * w; }
   /// The energy over the main mass that is lost if z' changes from one speed to another.
@@ -27,8 +36,25 @@ struct WallRule {
   }
 };
 
-/// The oscillator of the main mass with a loose mass that a wall presses: (1 + eps) x'' + 2 h x' + k x = f sin(theta) +
-/// load + eps y'' (eq. 71). Its damping is of a class of its own.
+/// The constants of the main mass with a loose mass that a wall presses: (1 + eps) x'' + 2 h x' + k x = f sin(theta) +
+/// load + eps y'' (eq. 71).
+template <class Constants, class Number, Effects E, class Other>
+[[nodiscard]] Constants carrying(const ArcConstants<Number, E>& free, const BasicLooseMass<Other>& loose) {
+  const Number eps(loose.ratio), both = 1 + eps;
+  Constants constants = Constants::of(free.h / both, free.f / both, free.nu,
+                                      (free.load + eps * Number(loose.load)) / both, free.k / both);
+  constants.carried = eps, constants.period = free.period;
+  return constants;
+}
+/// Whether free motion of both masses as one is a decaying rotation.
+template <class Number, Effects E, class Other>
+[[nodiscard]] bool rotates_carrying(const ArcConstants<Number, E>& free, const BasicLooseMass<Other>& loose) {
+  const Number both = 1 + Number(loose.ratio);
+  const double h = static_cast<double>(free.h / both), k = static_cast<double>(free.k / both);
+  return h * h < k;
+}
+
+/// The oscillator of both masses as one, whose damping is of a class of its own.
 template <class Number>
 class CarryingOscillator {
  public:
@@ -48,16 +74,8 @@ class CarryingOscillator {
 
   template <Effects E, class Other>
   [[nodiscard]] static Any of(const ArcConstants<Number, E>& free, const BasicLooseMass<Other>& loose) {
-    const Number eps(loose.ratio), both = 1 + eps;
-    const auto make = [&]<class Constants>() -> Any {
-      Constants constants = Constants::of(free.h / both, free.f / both, free.nu,
-                                          (free.load + eps * Number(loose.load)) / both, free.k / both);
-      constants.carried = eps, constants.period = free.period;
-      return constants;
-    };
-    const double h = static_cast<double>(free.h / both), k = static_cast<double>(free.k / both);
-    return h * h < k ? make.template operator()<Of<Damping::light, Forcing::secular>>()
-                     : make.template operator()<Of<Damping::heavy, Forcing::regular>>();
+    if (rotates_carrying(free, loose)) return carrying<Of<Damping::light, Forcing::secular>>(free, loose);
+    return carrying<Of<Damping::heavy, Forcing::regular>>(free, loose);
   }
 
   Any of_;
@@ -66,25 +84,17 @@ class CarryingOscillator {
 /// The housing of a loose mass.
 template <class Number>
 struct Walls {
-  template <Effects E, class Other = double>
-  Walls(const ArcConstants<Number, E>& free, const BasicLooseMass<Other>& loose)
-      : rule{Number(loose.ratio), {Number(loose.restitution)}},
+  template <class Other = double>
+  explicit Walls(const BasicLooseMass<Other>& loose)
+      : rule(loose),
         load(loose.load),
-        places{.lower = static_cast<double>(loose.lower), .upper = static_cast<double>(loose.upper)},
-        carrying(free, loose) {}
+        places{.lower = static_cast<double>(loose.lower), .upper = static_cast<double>(loose.upper)} {}
 
   [[nodiscard]] Number place(Side side) const { return Number(side == Side::upper ? places.upper : places.lower); }
 
   WallRule<Number> rule;
   Number load;   ///< y''
   Stops places;  ///< of the walls
-  CarryingOscillator<Number> carrying;
-};
-
-/// In place of it without a loose mass.
-struct NoWalls {
-  template <class Constants, class Other>
-  NoWalls(const Constants&, const BasicLooseMass<Other>&) {}
 };
 
 /// The place of a loose mass in its housing, z, and z'.

@@ -59,6 +59,8 @@ constexpr NamedVariable names[] = {
     {"loose_lower", {"lower wall of the loose mass", "$z_-$"}, Name{"", "loose_lower"}},
     {"loose_upper", {"upper wall of the loose mass", "$z_+$"}, Name{"", "loose_upper"}},
     {"loose_R", {"restitution of the loose mass", "$R_z$"}, Name{"", "loose_R"}},
+    {"loose_R_lower", {"restitution, lower wall", "$R_{z-}$"}, Name{"", "loose_R_lower"}},
+    {"loose_R_upper", {"restitution, upper wall", "$R_{z+}$"}, Name{"", "loose_R_upper"}},
     {"loose_load", {"acceleration of the loose mass", "$g$"}, Name{"", "loose_load"}},
     {"loose_x0", {"initial place of the loose mass", "$z(0)$"}},
     {"loose_v0", {"initial relative velocity of the loose mass", "$z$′$(0)$"}},
@@ -116,6 +118,13 @@ constexpr NamedVariable names[] = {
     {"loss_impact", {"loss by impacts", ""}},
     {"impulse", {"impulse", ""}},
     {"impact_power", {"power lost in impacts", ""}},
+    {"wall_impacts_per_period", {"impacts of the loose mass per period", ""}},
+    {"wall_v_before", {"relative velocity before impact", "$z$′$^{{-}}$"}},
+    {"wall_v_after", {"relative velocity after impact", "$z$′$^{{+}}$"}},
+    {"wall_impact_speed", {"speed of the fastest impact of the loose mass", ""}},
+    {"wall_rest_fraction", {"share of time pressed on the wall", ""}},
+    {"wall_loss_impact", {"loss by impacts of the loose mass", ""}},
+    {"wall_impulse", {"impulse on the wall", ""}},
 };
 
 /// Of the impacts of a loose mass.

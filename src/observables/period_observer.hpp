@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 #include "math/number.hpp"
 #include "motion/event.hpp"
@@ -10,7 +11,8 @@ namespace clatter::observables {
 
 class Period::Observer {
  public:
-  Observer(const Settings&, const ObservedSpan&) {}
+  Observer(const Settings&, const ObservedSpan& span)
+      : is_of_walls_(has_loose_mass(span.scene.loose) && !has_events_of_its_own(span.scene)) {}
 
   template <class A>
   void arc(const A&, double, double length) {
@@ -18,7 +20,8 @@ class Period::Observer {
   }
   void event(const motion::Event& event) {
     const bool begins_contact = event.is_contact() && event.kind != motion::Event::Kind::separation;
-    if (begins_contact && !(first_speed_ >= 0.0)) first_speed_ = event.speed();
+    const bool on_wall = event.kind == motion::Event::Kind::strike;
+    if (begins_contact && on_wall == is_of_walls_ && !(first_speed_ >= 0.0)) first_speed_ = event.speed();
   }
   /// Takes over the speed before the first impact, NaN if there is none, of motion that isn't at rest throughout.
   void include(double first_speed) { first_speed_ = first_speed, moves_ = true; }
@@ -26,10 +29,9 @@ class Period::Observer {
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
     Values values;
-    const Stops& stops = span.scene.stops;
-    if (stops.lower == -stops.upper) values.velocity_ratio = first_speed_ / stops.upper;
-    if (const LooseMass& loose = span.scene.loose; has_loose_mass(loose))
-      values.velocity_ratio = loose.lower == -loose.upper ? first_speed_ / loose.upper : no_value;
+    const auto [lower, upper] = is_of_walls_ ? std::pair(span.scene.loose.lower, span.scene.loose.upper)
+                                             : std::pair(span.scene.stops.lower, span.scene.stops.upper);
+    if (lower == -upper) values.velocity_ratio = first_speed_ / upper;
     if (!span.periodic && !span.transient && !span.undecided) values.period_ratio = 0.0;
     if (!span.periodic || span.stands_still || !moves_) return values;
     values.period = span.total;
@@ -40,6 +42,7 @@ class Period::Observer {
   }
 
  private:
+  bool is_of_walls_;    ///< contacts are those of a loose mass
   bool moves_ = false;  ///< the mass isn't at rest throughout
   double first_speed_ = no_value;
 };

@@ -61,7 +61,8 @@ double bounces_on(const point::Problem& scene, double position, double pull) {
 double bounces_in_housing(const point::Problem& scene) {
   const LooseMass& loose = scene.loose;
   const double both = 1 + loose.ratio, wall = loose.load < 0 ? loose.lower : loose.upper;
-  if (loose.restitution < 1 || loose.load == 0 || std::isinf(wall)) return 0;
+  if ((loose.load < 0 ? loose.restitution_lower : loose.restitution_upper) < 1 || loose.load == 0 || std::isinf(wall))
+    return 0;
   Oscillator o = scene.oscillator;
   o.damping /= both, o.forcing /= both, o.stiffness /= both;
   const double shaken = o.forcing == 0 ? 0.0 : o.frequency * o.frequency * steady_response(o).amplitude;

@@ -91,7 +91,8 @@ std::string effect_set_name(const Effects& effects) {
                      : set.damping == Damping::light ? "light damping"
                                                      : "heavy damping";
   if (set.forcing != Forcing::none) name += set.forcing == Forcing::regular ? ", forcing" : ", resonant forcing";
-  name += set.loose ? ", loose mass" : set.stops() ? ", impacts" : ", no stops";
+  if (set.loose) return name + (set.stops() ? ", loose mass beside stops and friction" : ", loose mass");
+  name += set.stops() ? ", impacts" : ", no stops";
   if (set.friction) name += ", friction";
   return name;
 }

@@ -167,7 +167,8 @@ Reason loose_reason(const point::Problem& scene) {
   const LooseMass& loose = scene.loose;
   const Oscillator& o = scene.oscillator;
   std::string why = "loose_mass = " + text(loose.ratio) + ", walls at " + text(loose.lower) + " and " +
-                    text(loose.upper) + ", R = " + text(loose.restitution);
+                    text(loose.upper) + ", R = " + text(loose.restitution_lower) +
+                    (loose.restitution_upper == loose.restitution_lower ? "" : " and " + text(loose.restitution_upper));
   const double middle = equilibrium_of(o), y = scene.start.displacement + loose.place - middle;
   if (loose.load == 0 && scene.start.velocity + loose.velocity == 0) {
     const PhaseState start{scene.start.displacement - middle, scene.start.velocity, std::sin(scene.start.phase),
@@ -191,8 +192,10 @@ Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
   const bool lower_first = lower && (!upper || needs.lower_gap < needs.upper_gap);
   const double gap = lower_first ? constant_force(scene.oscillator, scene.stops.lower)
                                  : -constant_force(scene.oscillator, scene.stops.upper);
-  const std::string force = (needs.effects.friction ? "|f| + static friction = " : "|f| = ") +
-                            text(std::abs(scene.oscillator.forcing) + scene.friction.static_level) +
+  const double weight = std::abs(scene.loose.ratio * scene.loose.load);  // with which a wall presses the loose mass
+  const std::string force = std::string("|f|") + (needs.effects.friction ? " + static friction" : "") +
+                            (weight != 0 ? " + loose_mass |loose_load|" : "") + " = " +
+                            text(std::abs(scene.oscillator.forcing) + scene.friction.static_level + weight) +
                             (needs.effects.rest ? " >= " : " < ") + text(gap) +
                             (scene.oscillator.stiffness != 1 ? ", k times the stop less the load"
                              : scene.oscillator.load == 0    ? ""
@@ -226,9 +229,8 @@ std::vector<Reason> reasons_of(const point::Problem& scene) {
   const Requirements needs = requirements_of(scene, duration_of(scene.time));
   std::vector<Reason> reasons{damping_reason(scene.oscillator), forcing_reason(scene.oscillator),
                               resonance_reason(scene.oscillator), load_reason(scene.oscillator)};
-  if (needs.effects.loose)
-    reasons.push_back(loose_reason(scene));
-  else
+  if (needs.effects.loose) reasons.push_back(loose_reason(scene));
+  if (!needs.effects.loose || has_events_of_its_own(scene))
     reasons.insert(reasons.end(), {stop_reason(scene, needs, false), stop_reason(scene, needs, true),
                                    dissipation_reason(scene, needs.effects), rest_reason(scene, needs)});
   if (scene.oscillator.stiffness != 1 || scene.units != Units{}) reasons.push_back(stiffness_reason(scene));

@@ -21,8 +21,8 @@ template <class Function>
 decltype(auto) with_every_effect_and_mass(const Scene& scene, Function&& function) {
   if (!has_loose_mass(scene.loose)) return with_every_effect(scene, std::forward<Function>(function));
   if (rotates(scene.oscillator))
-    return function.template operator()<effect_sets::with_loose_mass(Damping::light, Forcing::secular)>();
-  return function.template operator()<effect_sets::with_loose_mass(Damping::heavy, Forcing::regular)>();
+    return function.template operator()<effect_sets::with_everything(Damping::light, Forcing::secular)>();
+  return function.template operator()<effect_sets::with_everything(Damping::heavy, Forcing::regular)>();
 }
 
 }  // namespace clatter::point

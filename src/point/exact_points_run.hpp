@@ -83,7 +83,13 @@ double ExactPoints<E>::seconds_per_evaluation() {
   if (E.stops()) problem.stops = {-0.5, 0.5, 0.7, 0.7};
   if (E.soft) problem.stops.stiffness_lower = problem.stops.stiffness_upper = 100.0;
   if (E.friction) problem.friction = {0.1, 0.1};
-  if (E.loose) problem.loose = {.ratio = 0.05, .lower = -0.5, .upper = 0.5, .restitution = 0.7, .velocity = 0.3};
+  if (E.loose)
+    problem.loose = {.ratio = 0.05,
+                     .lower = -0.5,
+                     .upper = 0.5,
+                     .restitution_lower = 0.7,
+                     .restitution_upper = 0.6,
+                     .velocity = 0.3};
   using Clock = std::chrono::steady_clock;
   double least = std::numeric_limits<double>::infinity();
   for (int repetition = 0; repetition < 3; ++repetition) {

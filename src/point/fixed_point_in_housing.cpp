@@ -60,7 +60,7 @@ template <Effects E>
 std::optional<motion::LooseJacobian> newton_matrix(const Problem& problem, motion::State<double> state,
                                                    std::int64_t periods) {
   stepping::Exact<double, E> integrator(problem, limits_of(problem));
-  motion::LooseTangent derivative(problem.oscillator, problem.loose);
+  motion::LooseTangent derivative(problem);
   for (std::int64_t section = 0; section < periods; ++section)
     if (advance_to_section(integrator, state, 0, derivative) != stepping::Outcome::completed) return std::nullopt;
   motion::LooseJacobian matrix = derivative.mantissa();

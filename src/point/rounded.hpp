@@ -3,9 +3,8 @@
 #include <type_traits>
 
 #include "motion/arc.hpp"
-#include "motion/dry_friction.hpp"
 #include "motion/state.hpp"
-#include "motion/walls.hpp"
+#include "stepping/carrying.hpp"
 
 namespace clatter::point {
 
@@ -23,7 +22,7 @@ template <class Number>
           .pressed = state.pressed,
           .chatters = state.chatters,
           .loose = {state.loose.wall, static_cast<double>(state.loose.place), static_cast<double>(state.loose.speed),
-                    state.loose.pressed}};
+                    state.loose.pressed, state.loose.released, state.loose.may_part}};
 }
 
 /// Shows the arcs of a run in more digits in double, each rounded at its start: an error of a few roundings, which
@@ -32,38 +31,38 @@ template <Effects E>
 class InDouble {
  public:
   explicit InDouble(const Scene& scene)
-      : stops_(scene.stops),
-        constants_(scene.oscillator),
-        slips_(constants_, scene.friction, scene.stops),
-        walls_(constants_, scene.loose) {}
+      : alone_(motion::ArcConstants<double, E.arc()>(scene.oscillator), scene.stops, scene.friction, 0.0),
+        housing_(alone_, scene) {}
 
   /// Calls `function(arc)` with an arc in double.
   template <class Number, Effects Of, class Function>
   void show(const motion::Arc<Number, Of>& arc, Function&& function) const {
-    if constexpr (E.soft) {
-      const Side side = arc.constants().stop.side;
-      if (side != Side::none) {
-        const auto stop = motion::soft_stop_at<double>(stops_, side);
-        return show_with(arc, motion::ArcConstants<double, Of>::in_contact(free(arc), stop), function);
-      }
-    }
-    if constexpr (E.loose) {
+    if constexpr (E.loose)
       if (arc.constants().carried != 0)
-        return walls_.carrying.with_constants([&]<Effects Both>(const motion::ArcConstants<double, Both>& both) {
-          if constexpr (Both == Of) show_with(arc, both, function);
-        });
-    }
-    if constexpr (Of == E.arc()) show_with(arc, free(arc), function);
+        return housing_.carrying.with_mass([&](const auto& mass) { show_of(mass, arc, function); });
+    show_of(alone_, arc, function);
   }
 
  private:
+  template <class Mass, class Number, Effects Of, class Function>
+  void show_of(const Mass& mass, const motion::Arc<Number, Of>& arc, Function& function) const {
+    if constexpr (E.soft)
+      if (const Side side = arc.constants().stop.side; side != Side::none) {
+        const auto stop = motion::soft_stop_at<double>(mass.stops(), side);
+        return show_with(arc, motion::ArcConstants<double, Of>::in_contact(free(mass, arc), stop), function);
+      }
+    if constexpr (E.loose && Of == stepping::HeldConstants<double>::effects)
+      if (const auto& c = arc.constants(); c.h == 0 && c.k == 0 && c.f == 0 && c.load == 0)
+        return show_with(arc, housing_.held(c.carried != 0), function);
+    if constexpr (Of == Mass::effects.arc()) show_with(arc, free(mass, arc), function);
+  }
   /// The constants of a free mass, in the direction of an arc's slip if friction acts on it.
-  template <class A>
-  [[nodiscard]] const motion::ArcConstants<double, E.arc()>& free(const A& arc) const {
+  template <class Mass, class A>
+  [[nodiscard]] static const auto& free(const Mass& mass, const A& arc) {
     if constexpr (E.friction)
       if (arc.constants().friction != 0)
-        return slips_.towards(arc.constants().friction < 0 ? Side::upper : Side::lower);
-    return constants_;
+        return mass.slips().towards(arc.constants().friction < 0 ? Side::upper : Side::lower);
+    return mass.constants();
   }
   template <class Number, Effects Of, class Function>
   static void show_with(const motion::Arc<Number, Of>& arc, const motion::ArcConstants<double, Of>& constants,
@@ -75,10 +74,8 @@ class InDouble {
     function(motion::Arc<double, Of>(constants, in_double, d(arc.anchor())));
   }
 
-  Stops stops_;
-  motion::ArcConstants<double, E.arc()> constants_;
-  [[no_unique_address]] std::conditional_t<E.friction, motion::Slips<double, E.arc()>, motion::NoSlips> slips_;
-  [[no_unique_address]] std::conditional_t<E.loose, motion::Walls<double>, motion::NoWalls> walls_;
+  stepping::MainMass<double, E> alone_;
+  [[no_unique_address]] std::conditional_t<E.loose, stepping::Housing<double, E>, stepping::NoHousing> housing_;
 };
 
 }  // namespace clatter::point

@@ -88,6 +88,13 @@ namespace effect_sets {
   return {.damping = damping, .forcing = forcing, .load = true, .stiffness = true, .loose = true};
 }
 
+/// A loose mass, and a main mass with stops of any kind and friction.
+[[nodiscard]] constexpr Effects with_everything(Damping damping, Forcing forcing) {
+  Effects effects = with_friction(damping, forcing);
+  effects.loose = true;
+  return effects;
+}
+
 }  // namespace effect_sets
 
 /// The compiled sets of effects, the cheaper before the dearer. An effect has sets without it if leaving it out saves
@@ -97,7 +104,8 @@ namespace effect_sets {
 /// are run with k = 1, in other units of time, so only those without a spring or with an unstable one need them.
 /// Soft stops need them, too, as the mass moves on another spring while it is in contact; and so does friction, which
 /// has two sets of its own, as it divides each flight into slips. A loose mass has two, too: its motion has twice as
-/// many numbers, and other events. src/scene/README.md has the cost of each effect.
+/// many numbers, and other events; and two more if its main mass has stops or friction. src/scene/README.md has the
+/// cost of each effect.
 inline constexpr std::array compiled_effects{
     effect_sets::free_of_stops(Damping::none, Forcing::none),
     effect_sets::free_of_stops(Damping::light, Forcing::regular),
@@ -119,6 +127,8 @@ inline constexpr std::array compiled_effects{
     effect_sets::with_friction(Damping::heavy, Forcing::regular),
     effect_sets::with_loose_mass(Damping::light, Forcing::secular),
     effect_sets::with_loose_mass(Damping::heavy, Forcing::regular),
+    effect_sets::with_everything(Damping::light, Forcing::secular),
+    effect_sets::with_everything(Damping::heavy, Forcing::regular),
 };
 
 /// The cheapest compiled set that contains the effects: an index of `compiled_effects`.
@@ -157,12 +167,21 @@ inline constexpr double secular_distance = 1.0 / 16.0;
   return effect_sets::complete(Damping::light, h >= secular_distance ? Forcing::regular : Forcing::secular);
 }
 
+/// Whether a main mass has stops or dry friction.
+[[nodiscard]] inline bool has_events_of_its_own(const Scene& scene) {
+  return is_finite(scene.stops.lower) || is_finite(scene.stops.upper) || has_friction(scene.friction);
+}
+
 /// Every effect that a scene can have.
 [[nodiscard]] inline Effects all_effects(const Scene& scene) {
   const bool rotates = clatter::rotates(scene.oscillator);
-  if (has_loose_mass(scene.loose))
-    return rotates ? effect_sets::with_loose_mass(Damping::light, Forcing::secular)
-                   : effect_sets::with_loose_mass(Damping::heavy, Forcing::regular);
+  if (has_loose_mass(scene.loose)) {
+    if (!has_events_of_its_own(scene))
+      return rotates ? effect_sets::with_loose_mass(Damping::light, Forcing::secular)
+                     : effect_sets::with_loose_mass(Damping::heavy, Forcing::regular);
+    return rotates ? effect_sets::with_everything(Damping::light, Forcing::secular)
+                   : effect_sets::with_everything(Damping::heavy, Forcing::regular);
+  }
   if (has_friction(scene.friction))
     return rotates ? effect_sets::with_friction(Damping::light, Forcing::secular)
                    : effect_sets::with_friction(Damping::heavy, Forcing::regular);
@@ -223,7 +242,9 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
 /// The same for a scene, which may have soft stops, friction or a loose mass.
 [[nodiscard]] inline Effects general_effects(const Scene& scene) {
   const Damping damping = rotates(scene.oscillator) ? Damping::light : Damping::heavy;
-  if (has_loose_mass(scene.loose)) return effect_sets::with_loose_mass(damping, Forcing::regular);
+  if (has_loose_mass(scene.loose))
+    return has_events_of_its_own(scene) ? effect_sets::with_everything(damping, Forcing::regular)
+                                        : effect_sets::with_loose_mass(damping, Forcing::regular);
   if (has_friction(scene.friction)) return effect_sets::with_friction(damping, Forcing::regular);
   if (!has_soft_stop(scene.stops)) return general_effects(scene.oscillator);
   return effect_sets::with_soft_stops(damping, Forcing::regular);
@@ -236,8 +257,8 @@ template <class Function>
 decltype(auto) with_general_effects(const Scene& scene, Function&& function) {
   if (has_loose_mass(scene.loose)) {
     if (rotates(scene.oscillator))
-      return function.template operator()<effect_sets::with_loose_mass(Damping::light, Forcing::regular)>();
-    return function.template operator()<effect_sets::with_loose_mass(Damping::heavy, Forcing::regular)>();
+      return function.template operator()<effect_sets::with_everything(Damping::light, Forcing::regular)>();
+    return function.template operator()<effect_sets::with_everything(Damping::heavy, Forcing::regular)>();
   }
   if (rotates(scene.oscillator))
     return function.template operator()<effect_sets::with_friction(Damping::light, Forcing::regular)>();

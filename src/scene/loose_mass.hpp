@@ -13,7 +13,8 @@ struct BasicLooseMass {
   Number ratio{0.0};                                       ///< eps, its mass over the main mass, >= 0; 0: there is none
   Number lower{-std::numeric_limits<double>::infinity()};  ///< z at the lower wall; -inf: none
   Number upper{std::numeric_limits<double>::infinity()};   ///< z at the upper wall; +inf: none
-  Number restitution{1.0};                                 ///< R of both walls, 0 ... 1
+  Number restitution_lower{1.0};                           ///< R of the lower wall, 0 ... 1
+  Number restitution_upper{1.0};                           ///< R of the upper wall, 0 ... 1
   Number load{0.0};                                        ///< constant acceleration y'' between impacts, any finite
   Number place{0.0};                                       ///< z at tau = 0, between the walls
   Number velocity{0.0};                                    ///< z' at tau = 0

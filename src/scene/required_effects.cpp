@@ -40,9 +40,13 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
   const bool soft_lower = is_soft(stops, Side::lower), soft_upper = is_soft(stops, Side::upper);
   const double x0 = scene.start.displacement;
   const bool in_a_stop = (soft_lower && x0 < stops.lower) || (soft_upper && x0 > stops.upper);
-  const bool meets_none = needs.free_reach < needs.lower_gap && needs.free_reach < needs.upper_gap;
+  // a loose mass gives the main one energy, of which no bound is known
+  const bool meets_none =
+      !needs.effects.loose && needs.free_reach < needs.lower_gap && needs.free_reach < needs.upper_gap;
   if (!meets_none || bounds == Sharpness::sharpest)
-    needs.reach = in_a_stop ? infinity : displacement_bound_through_impacts(o, start, duration);  // it stores energy
+    needs.reach = in_a_stop || needs.effects.loose
+                      ? infinity
+                      : displacement_bound_through_impacts(o, start, duration);  // it stores energy
   Effects& effects = needs.effects;
   if (!meets_none) {
     effects.lower = std::isfinite(stops.lower) && !(needs.reach < needs.lower_gap);
@@ -55,8 +59,10 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
   // friction holds a mass that is pulled away from a stop, too
   const double push =
       (std::abs(o.forcing) + scene.friction.static_level) * (1 + 4 * std::numeric_limits<double>::epsilon());
-  effects.rest = (effects.lower && !soft_lower && !(push < constant_force(o, stops.lower))) ||
-                 (effects.upper && !soft_upper && !(push < -constant_force(o, stops.upper)));
+  // and so is the pull of a loose mass that a wall presses
+  const double pull = push + std::abs(scene.loose.ratio * scene.loose.load);
+  effects.rest = (effects.lower && !soft_lower && !(pull < constant_force(o, stops.lower))) ||
+                 (effects.upper && !soft_upper && !(pull < -constant_force(o, stops.upper)));
   return needs;
 }
 

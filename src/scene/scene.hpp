@@ -50,21 +50,23 @@ template <class Number, class Other>
   same.start = {n(start.displacement), n(start.velocity), n(start.phase)};
   same.shaking = {n(shaking.stops), n(shaking.base), n(shaking.lead), n(shaking.phase)};
   same.friction = {n(friction.kinetic), n(friction.static_level)};
-  same.loose = {n(loose.ratio), n(loose.lower), n(loose.upper),   n(loose.restitution),
-                n(loose.load),  n(loose.place), n(loose.velocity)};
+  same.loose = {
+      n(loose.ratio), n(loose.lower), n(loose.upper),   n(loose.restitution_lower), n(loose.restitution_upper),
+      n(loose.load),  n(loose.place), n(loose.velocity)};
   return same;
 }
 
 /// The place about which the mirror image of each motion, half a forcing period later, is a motion too: the equilibrium
 /// of the spring or, without spring and load, the middle between the stops. Nothing if stops or load aren't the same on
 /// both sides of it, to rounding. A loose mass is mirrored about the middle of its walls; with a load of its own, or
-/// one wall, it has no mirror image.
+/// walls that aren't alike, it has no mirror image.
 [[nodiscard]] inline std::optional<double> mirror_centre(const Scene& scene) {
   const Stops& stops = scene.stops;
   const Oscillator& o = scene.oscillator;
   const LooseMass& loose = scene.loose;
   const bool is_housed = std::isfinite(loose.lower) && std::isfinite(loose.upper);
-  if (has_loose_mass(loose) && (loose.load != 0 || !is_housed)) return std::nullopt;
+  const bool is_mirrored = is_housed && loose.restitution_lower == loose.restitution_upper && loose.load == 0;
+  if (has_loose_mass(loose) && !is_mirrored) return std::nullopt;
   const bool bounded = std::isfinite(stops.lower) && std::isfinite(stops.upper);
   if (!bounded && (std::isfinite(stops.lower) || std::isfinite(stops.upper))) return std::nullopt;
   const bool alike = stops.restitution_lower == stops.restitution_upper &&

@@ -34,9 +34,9 @@ class BeyondContact {
       at.x += (at.v - after) * left, at.v = after;
     }
     if (is_ahead(at.z, at.w, loose_.lower, loose_.upper)) [[unlikely]] {
-      const motion::WallRule<double> rule{loose_.ratio, {loose_.restitution}};
+      const motion::WallRule<double> rule(loose_);
       const double left = ((at.w > 0 ? loose_.upper : loose_.lower) - at.z) / at.w;
-      const double after = rule.law.after(at.w), v_after = rule.main_after(at.v, at.w);
+      const double after = rule.law_for(at.w).after(at.w), v_after = rule.main_after(at.v, at.w);
       at.z += (at.w - after) * left, at.x += (at.v - v_after) * left;
       at.w = after, at.v = v_after;
     }

@@ -66,15 +66,23 @@ class CycleEnds {
  private:
   static constexpr int most_events = 4;  ///< at one instant
 
-  /// The distance of the nearest stop, or of a loose mass from its nearest wall, and the speed relative to it.
+  /// The distance of the nearest stop, or of a loose mass from its nearest wall, and the speed relative to it: of the
+  /// two that which is nearer in time.
   struct Approach {
     double gap, speed;
   };
+  template <class Of>
+  [[nodiscard]] static double nearest(double x, const Of& of) {
+    return std::min(std::abs(x - of.lower), std::abs(x - of.upper));
+  }
   [[nodiscard]] Approach approach(const State& state) const {
-    const auto gap = [](double x, const auto& of) { return std::min(std::abs(x - of.lower), std::abs(x - of.upper)); };
-    if (!has_loose_mass(scene_.loose)) return {gap(state.x, integrator_.stops()), std::abs(state.v)};
+    const Approach main{nearest(state.x, integrator_.stops()), std::abs(state.v)};
+    if (!has_loose_mass(scene_.loose)) return main;
     const auto [z, w] = motion::place_in_housing(state, scene_.loose);
-    return {gap(z, scene_.loose), std::abs(w)};
+    const Approach loose{nearest(z, scene_.loose), std::abs(w)};
+    if (!std::isfinite(main.gap)) return loose;
+    if (state.loose.pressed) return main;
+    return main.gap * loose.speed < loose.gap * main.speed ? main : loose;
   }
   /// How long a state is within rounding of an event, tau. The transient left at a repeat is below its tolerance, but a
   /// contact moves by more than the state does, so as much is allowed as where a repeat is confirmed.
@@ -85,7 +93,8 @@ class CycleEnds {
   /// Whether there may be an event so soon. A mass that stands, or is pressed, begins no new one.
   [[nodiscard]] bool may_meet(const State& state, double soon) const {
     const auto [gap, speed] = approach(state);
-    if (speed == 0 || state.chatters || state.loose.pressed) return false;
+    const bool is_carried = state.loose.pressed && !std::isfinite(nearest(state.x, integrator_.stops()));
+    if (speed == 0 || state.chatters || is_carried) return false;
     const bool nearly_stands = integrator_.is_rough() && speed <= 4 * uncertainty_ * pace_of(scene_.oscillator);
     return nearly_stands || state.within != Side::none || gap <= 2 * soon * speed;
   }

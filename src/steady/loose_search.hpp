@@ -8,6 +8,7 @@
 
 #include "motion/walls.hpp"
 #include "scene/displacement_bound.hpp"
+#include "scene/effects.hpp"
 #include "steady/contact_at_section.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/passage_observer.hpp"
@@ -29,8 +30,12 @@ namespace clatter::steady {
   const double y = state.loose.wall == Side::none ? state.loose.place : z + state.x,
                v = state.loose.wall == Side::none ? state.loose.speed : w + state.v;
   const double middle = equilibrium_of(o);
-  const double far = displacement_bound(o, {state.x - middle, state.v, phase.sine, phase.cosine},
-                                        std::numeric_limits<double>::infinity(), 0.0);
+  const PhaseState main{state.x - middle, state.v, phase.sine, phase.cosine};
+  constexpr double for_ever = std::numeric_limits<double>::infinity();
+  const bool in_a_stop = soft_stop_beyond(scene.stops, state.x) != Side::none;  // which has stored energy
+  const double far = in_a_stop                      ? for_ever
+                     : has_events_of_its_own(scene) ? displacement_bound_through_impacts(o, main, for_ever)
+                                                    : displacement_bound(o, main, for_ever, 0.0);
   const auto departs = [&](int sign, double wall) {  // the wall on the other side, which may be at infinity, too
     if (!(sign * loose.load >= 0) || !(sign * v > 0 || (sign * loose.load > 0 && v == 0))) return false;
     return std::isinf(wall) || sign * (y - middle - wall) > far;

@@ -66,19 +66,15 @@ class PassageObserver {
   [[nodiscard]] motion::Jacobian<double> derivative() const { return tangent_.map(); }
 
  private:
-  /// The mark of an event in an itinerary, > 0. Those of a loose mass and its walls are told as those of a mass and its
-  /// stops: no motion has both.
+  /// The mark of an event in an itinerary, > 0.
   [[nodiscard]] static constexpr std::uint64_t mark_of(const motion::Event& event) {
     using Kind = motion::Event::Kind;
     const std::uint64_t upper = event.side == Side::upper;
     switch (event.kind) {
       case Kind::impact:
-      case Kind::strike:
         return 1 + upper;
       case Kind::rest:
       case Kind::chatter:
-      case Kind::press:
-      case Kind::hold:
         return 3 + upper;
       case Kind::touch:
         return 5 + upper;
@@ -90,6 +86,11 @@ class PassageObserver {
         return 13;
       case Kind::reversal:
         return 14;
+      case Kind::strike:
+        return 15 + upper;
+      case Kind::press:
+      case Kind::hold:
+        return 17 + upper;
     }
     return 0;
   }

@@ -8,7 +8,7 @@
 
 #include "motion/first_crossing.hpp"
 #include "motion/polynomial_arc.hpp"
-#include "stepping/modes/housing.hpp"
+#include "stepping/carrying.hpp"
 
 /// Events on the dense output of a step, for certain: the Bernstein form shows two crossings within a step, too.
 namespace clatter::stepping {
@@ -16,6 +16,11 @@ namespace clatter::stepping {
 /// Distance from the anchor to a stop, or a wall, positive inside.
 [[nodiscard]] inline double gap_to(const Stops& stops, double anchor, Side side) {
   return side == Side::upper ? stops.upper - anchor : anchor - stops.lower;
+}
+
+/// Whether a place is that of a stop, or a wall.
+[[nodiscard]] inline bool lies_on(const Stops& stops, double place, Side side) {
+  return place == (side == Side::upper ? stops.upper : stops.lower);
 }
 
 /// The stop that the mass is on and moves into; none if there isn't one.

@@ -27,8 +27,9 @@ namespace clatter::stepping {
 /// Chatter, rest and release follow the exact integrator's rules; displacement is carried as the distance from the last
 /// stop, so that the shortest flights keep their digits.
 ///
-/// With a loose mass its place z in the housing and z' are integrated beside x and x'. The dense output of z finds its
-/// impacts, and that of x'' the end of a time for which a wall presses it.
+/// The flight of a loose mass is its parabola less the dense output of the main mass, which counts from the beginning
+/// of the flight, so that the shortest keep their digits. On that its impacts are found, and on the polynomial of x''
+/// the end of a time for which a wall presses it.
 ///
 /// Each flight and each forcing period begins with a step whose size depends on the state alone: a period is a function
 /// of the state at its beginning, so a motion can repeat.
@@ -46,17 +47,20 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
         stepper_(boost::numeric::odeint::make_dense_output(tolerance_ * size_of(scene), tolerance_, Pair())) {}
 
   /// The next step's arc and its first contact; without a contact it ends with the step, or at the horizon.
-  [[nodiscard]] ArcToEvent<DenseArc> fly(const motion::State<double>& state, const motion::Motion<double>& start,
-                                         double anchor, double horizon) {
-    go_on(this->constants(), state, start, anchor);
-    ArcToEvent<DenseArc> flight{standing(this->constants(), state), {0, Side::none, 0.0, start}};
+  template <Effects Of>
+  [[nodiscard]] ArcToEvent<motion::PolynomialArc<Of>> fly(const motion::ArcConstants<double, Of>& constants,
+                                                          const motion::State<double>& state,
+                                                          const motion::Motion<double>& start, double anchor,
+                                                          double horizon) {
+    go_on(constants, state, start, anchor);
+    ArcToEvent<motion::PolynomialArc<Of>> flight{standing(constants, state), {0, Side::none, 0.0, start}};
     if (const Side side = entered(this->stops(), anchor_, here_[0], here_[1]); side != Side::none) {
       flight.crossing.side = side;
       flight.crossing.motion.x =
           motion::stop_at<double>(this->stops(), side).position;  // the step ended there, to rounding
       return flight;
     }
-    if (!take_step(flight, this->constants(), state, start.a)) return flight;
+    if (!take_step(flight, constants, state, start.a)) return flight;
     motion::Crossing<double>& contact = flight.crossing = first_contact(flight.arc, this->stops(), horizon);
     conclude(contact, contact.side != Side::none, state, horizon);
     return flight;
@@ -84,63 +88,44 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     return flight;
   }
 
-  /// The next step of a loose mass in its housing, and its first contact with a wall.
-  [[nodiscard]] ArcToEvent<motion::PolynomialInHousing<E.arc()>> fly_in_housing(
-      const motion::State<double>& state, const motion::Motion<double>& start, double anchor,
-      const motion::RelativeStart<double>& loose, const motion::Walls<double>& walls,
-      double horizon) requires(E.loose) {
-    const double sign = state.loose.place == 0 ? sign_of(state.loose.wall) : 0, towards = walls.load - start.a;
-    go_on_from({start.offset, start.v, loose.offset, loose.w}, -sign * loose.w, sign * towards, this->constants(),
-               state, anchor);
-    ArcToEvent<motion::PolynomialInHousing<E.arc()>> flight{
-        {standing(this->constants(), state), loose.origin, walls.load, constant(here_[2]), constant(here_[3])}};
-    motion::Crossing<double>& contact = flight.crossing = {0, Side::none, 0.0, flight.arc.start()};
-    contact.side = entered(walls.places, loose.origin, here_[2], here_[3]);
-    if (loose.w == 0 && towards == 0 && sign * this->constants().jerk(start) < 0)
-      contact.side = state.loose.wall;  // it lies on a wall that begins to press it
-    if (contact.side != Side::none) return flight;
-    try {
-      const Dense dense = dense_step(this->constants(), walls.load);
-      flight.arc = {arc_of(this->constants(), state, dense, start.a), loose.origin, walls.load,
-                    dense.over(2, dense.begin[3], dense.end[3]), dense.over(3, towards, walls.load - dense.a_end)};
-    } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
-      contact.resolved = false;
-      return flight;
-    }
-    contact = first_contact(flight.arc, walls.places, horizon);
-    const motion::Motion<double> main = flight.arc.main().at(contact.elapsed);
-    const double turns = state.phase_turns + contact.elapsed / this->period();
-    const bool is_finite = this->finite(contact.motion.x) && this->finite(main.x);
-    if (!is_finite) contact.motion.x = nan;
-    contact.resolved = is_finite && (contact.side != Side::none || turns > state.phase_turns);
-    if (contact.side == Side::none && contact.elapsed < horizon) reached_ = {main.x, main.v, turns};
-    return flight;
+  /// The motion of a loose mass beside a step of the main one.
+  template <Effects Of>
+  [[nodiscard]] static motion::PolynomialInHousing<Of> beside(const motion::PolynomialArc<Of>& main,
+                                                              const motion::RelativeStart<double>& start, double load) {
+    return motion::PolynomialInHousing<Of>::beside(main, start, load);
   }
-
-  /// The next step of both masses as one, until the wall would have to pull.
-  template <Effects Both>
-  [[nodiscard]] ArcToEvent<motion::PolynomialArc<Both>> carry(const motion::ArcConstants<double, Both>& constants,
-                                                              const motion::State<double>& state,
-                                                              const motion::Motion<double>& start, double anchor,
-                                                              const Pressing<double>& pressing,
-                                                              double horizon) requires(E.loose) {
-    go_on(constants, state, start, anchor);
-    ArcToEvent<motion::PolynomialArc<Both>> flight{standing(constants, state), {1, Side::none, 0.0, start}};
+  template <Effects Of>
+  [[nodiscard]] motion::Crossing<double> meet_wall(const motion::PolynomialInHousing<Of>& beside, const Stops& walls,
+                                                   double horizon) const {
+    const motion::Motion<double> start = beside.start();
+    motion::Crossing<double> contact{0, entered(walls, beside.anchor(), start.offset, start.v), 0.0, start};
+    for (const Side side : {Side::lower, Side::upper})
+      if (lies_on(walls, beside.anchor() + start.offset, side) && start.v == 0 && start.a == 0 &&
+          sign_of(side) * beside.constants().jerk(beside.main().start()) < 0)
+        contact.side = side;  // it lies on a wall that begins to press it
+    if (contact.side == Side::none) contact = first_contact(beside, walls, horizon);
+    contact.resolved = this->finite(contact.motion.x);
+    return contact;
+  }
+  template <Effects Of>
+  [[nodiscard]] static motion::Crossing<double> let_go(const motion::PolynomialArc<Of>& main,
+                                                       const Pressing<double>& pressing, double horizon) {
+    const motion::Motion<double> start = main.start();
     const double sign = sign_of(pressing.wall);
-    if (pressing.wall != Side::none && sign * (pressing.load - start.a) <= 0 && sign * constants.jerk(start) > 0) {
-      flight.crossing.margin = 0;
-      return flight;
-    }
-    if (!take_step(flight, constants, state, start.a)) return flight;
-    flight.crossing = end_of_press(flight.arc, pressing, horizon);
-    conclude(flight.crossing, flight.crossing.margin == 0, state, horizon);
-    return flight;
+    if (sign * (pressing.load - start.a) <= 0 && sign * main.constants().jerk(start) > 0)
+      return {0, Side::none, 0.0, start};
+    return end_of_press(main, pressing, horizon);
+  }
+  [[nodiscard]] motion::PolynomialArc<HeldConstants<double>::effects> held_arc(const HeldConstants<double>& constants,
+                                                                               const motion::State<double>& state,
+                                                                               const motion::Motion<double>& start,
+                                                                               double anchor, double length) const {
+    return {constants, anchor, this->start_turns() + state.phase_turns, length, constant(start.offset), constant(0.0)};
   }
 
  private:
-  /// Distance from the anchor, velocity; with a loose mass its distance from the origin in its housing, and z'.
-  using Values = std::array<double, E.loose ? 4 : 2>;
-  using Place = std::array<double, 3>;  ///< x, v, turns
+  using Values = std::array<double, 2>;  ///< distance from the anchor, velocity
+  using Place = std::array<double, 3>;   ///< x, v, turns
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   static constexpr Place nowhere{nan, nan, nan};  // equal to no Place
   using Pair = boost::numeric::odeint::runge_kutta_dopri5<Values>;
@@ -181,22 +166,16 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   template <Effects Of>
   void go_on(const motion::ArcConstants<double, Of>& constants, const motion::State<double>& state,
              const motion::Motion<double>& start, double anchor) {
-    const bool is_on_stop = state.from_stop != Side::none && start.offset == 0;
-    const double sign = is_on_stop ? sign_of(state.from_stop) : 0;
-    go_on_from({start.offset, start.v}, -sign * start.v, sign * start.a, constants, state, anchor);
-  }
-  /// The same from given values, with the speed that leaves a stop and the acceleration back.
-  template <Effects Of>
-  void go_on_from(const Values& from, double leaving, double pressed, const motion::ArcConstants<double, Of>& constants,
-                  const motion::State<double>& state, double anchor) {
     const bool goes_on = Place{state.x, state.v, state.phase_turns} == reached_;
     reached_ = nowhere;
     if (goes_on) return;
     anchor_ = anchor, angle_ = 2 * pi<double>() * (this->start_turns() + state.phase_turns);
     double first_step = std::pow(tolerance_, 0.2) / constants.rate / 2;
+    const bool is_on_stop = state.from_stop != Side::none && start.offset == 0;
+    const double sign = is_on_stop ? sign_of(state.from_stop) : 0, leaving = -sign * start.v, pressed = sign * start.a;
     if (leaving > 0 && pressed > 0)  // no longer than the flight, if the force ends it soon
       first_step = std::min(first_step, 2 * leaving / pressed);
-    here_ = from;
+    here_ = {start.offset, start.v};
     stepper_.initialize(here_, 0.0, first_step);
   }
 
@@ -230,14 +209,11 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       return quintic(length, {begin[i], rate}, {end[i], rate_end}, {third[i], two_thirds[i]});
     }
   };
-  /// Makes a step from here; `load` is that of a loose mass in flight.
+  /// Makes a step from here.
   template <Effects Of>
-  [[nodiscard]] Dense dense_step(const motion::ArcConstants<double, Of>& constants, double load) {
+  [[nodiscard]] Dense dense_step(const motion::ArcConstants<double, Of>& constants) {
     const auto equation = [&](const Values& y, Values& rate, double s) {
-      const double a = acceleration(constants, y, s);
-      rate = {y[1], a};
-      if constexpr (E.loose)
-        if (constants.carried == 0) rate[2] = y[3], rate[3] = load - a;
+      rate = {y[1], acceleration(constants, y, s)};
     };
     const auto [from, to] = stepper_.do_step(equation);
     Dense dense{.length = to - from, .begin = std::exchange(here_, stepper_.current_state())};
@@ -265,7 +241,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
                                const motion::ArcConstants<double, Of>& constants, const motion::State<double>& state,
                                double a) {
     try {
-      flight.arc = arc_of(constants, state, dense_step(constants, 0.0), a);
+      flight.arc = arc_of(constants, state, dense_step(constants), a);
     } catch (const boost::numeric::odeint::odeint_error&) {
       flight.crossing.resolved = false;
     }

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <tuple>
 #include <type_traits>
 
 #include "motion/chatter.hpp"
-#include "motion/walls.hpp"
 #include "stepping/modes.hpp"
 
 namespace clatter::stepping {
@@ -16,10 +14,11 @@ namespace clatter::stepping {
 /// Event-driven integration: from event to event, chatter completed, rests released at their exact time. THE loop, of
 /// every machine: the modes are those of the table in `modes.hpp`.
 ///
-/// A `Method` computes flights: `fly(state, motion, anchor, horizon)` between stops, and `fly_within(constants, state,
-/// motion, anchor, margins, horizon)` up to the first of some margins that falls to 0; with a loose mass
-/// `fly_in_housing(state, motion, anchor, start, walls, horizon)` up to its next impact, and `carry(constants, state,
-/// motion, anchor, pressing, horizon)` of both masses as one.
+/// A `Method` computes flights: `fly(constants, state, motion, anchor, horizon)` between stops, and
+/// `fly_within(constants, state, motion, anchor, margins, horizon)` up to the first of some margins that falls to 0.
+/// With a loose mass it gives `beside(arc, start, load)`, the motion of that beside an arc of the main mass, its
+/// contact `meet_wall(beside, walls, horizon)`, the end `let_go(arc, pressing, horizon)` of a time for which a wall
+/// presses it, and `held_arc(constants, state, motion, anchor, length)` of a main mass that something holds.
 template <class Method, class N, Effects E>
 class EventDriven : public IntegratorBase<N, E> {
   using Base = IntegratorBase<N, E>;
@@ -32,8 +31,7 @@ class EventDriven : public IntegratorBase<N, E> {
   EventDriven(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits,
               const motion::ChatterRule<Number>& rule)
       : Base(scene, in_reach, limits),
-        walls_(this->constants(), scene.loose),
-        soft_stops_(has_soft_stop(scene.stops)),
+        housing_(static_cast<const MainMass<N, E>&>(*this), scene),
         low_{low_beside(scene, Side::lower, rule), low_beside(scene, Side::upper, rule)},
         chatter_accuracy_(rule.accuracy) {}
 
@@ -45,7 +43,7 @@ class EventDriven : public IntegratorBase<N, E> {
     while (end - state.phase_turns > 2 * epsilon<Number>()) {
       this->report(state);
       modes::enter(*this, state);
-      const Outcome outcome = run_mode(stage, Modes<EventDriven>());
+      const Outcome outcome = run_mode(stage);
       if (outcome != Outcome::completed) return outcome;
       if constexpr (E.soft) modes::keep_before_touch(*this, state);
     }
@@ -66,33 +64,24 @@ class EventDriven : public IntegratorBase<N, E> {
   // For the modes.
 
   [[nodiscard]] Method& method() { return static_cast<Method&>(*this); }
-  [[nodiscard]] const auto& walls() const { return walls_; }
-  [[nodiscard]] bool has_soft_stops() const { return soft_stops_; }
+  static constexpr bool carries = false;
+  [[nodiscard]] const auto& walls() const requires(E.loose) { return housing_.walls; }
+  [[nodiscard]] bool loses() const requires(E.loose) { return housing_.loses; }
+  [[nodiscard]] const auto& held_constants(bool with_loose) const requires(E.loose) {
+    return housing_.held(with_loose);
+  }
+  /// Runs the mode of both masses as one.
+  template <class Stage>
+  [[nodiscard]] Outcome run_carrying(Stage& stage) requires(E.loose) {
+    return housing_.carrying.with_mass([&](const auto& mass) {
+      Carrying both(*this, mass);
+      return modes::run_first(both, stage);
+    });
+  }
 
-  /// The position that the offset of the present flight counts from.
-  [[nodiscard]] Number anchor(const State& state) const {
-    return state.from_stop == Side::none ? state.x : motion::stop_at<Number>(this->stops(), state.from_stop).position;
-  }
-  /// The beginning of a flight; `released`: the acceleration if it begins with a release.
-  template <class Constants>
-  [[nodiscard]] motion::Motion<Number> motion(const Constants& constants, const State& state,
-                                              const Number& released = Number(0)) const {
-    const auto [sine, cosine] = this->phase(state);
-    const Number offset = state.from_stop == Side::none ? Number(0) : state.offset;
-    const Number displacement = constants.from_equilibrium(state.x, anchor(state), offset);
-    const Number a = state.released ? released : constants.acceleration(displacement, state.v, sine);
-    return {offset, state.x, state.v, a, sine, cosine};
-  }
   [[nodiscard]] static Outcome outcome_at(const motion::Crossing<Number>& crossing) {
     if (crossing.resolved) return Outcome::completed;
     return Base::finite(crossing.motion.x) ? Outcome::unresolved : Outcome::not_finite;
-  }
-
-  /// The longest time after which a mass that a stop or a wall lets go, and that is back, may never have been let go:
-  /// a force that touches zero differs from zero so long by no more than the rounding of its parts, some ulps of each.
-  [[nodiscard]] Number shortest_hop() const {
-    using std::sqrt;
-    return 4 * sqrt(epsilon<Number>()) * 2 * pi<Number>() / this->constants().rate;
   }
 
   /// The time that the rest of a chatter takes, in which the mass has just left a stop; nothing if it isn't summed.
@@ -107,19 +96,15 @@ class EventDriven : public IntegratorBase<N, E> {
   }
 
  private:
-  /// Runs the first of some modes that has the state, up to its event or to the end of the stage.
-  template <class Stage, class Mode, class... Others>
-  [[nodiscard]] Outcome run_mode(Stage& stage, std::tuple<std::type_identity<Mode>, Others...>) {
-    if (const auto has = Mode::has(*this, stage.state)) {
-      if constexpr (requires { Mode::run(*this, stage); })
-        return Mode::run(*this, stage);
-      else if constexpr (requires { Mode::run(*this, stage, *has); })
-        return Mode::run(*this, stage, *has);
-      else
-        return run(Mode{*this, stage.state}, *this, stage);
+  /// Runs the mode that the state is in, up to its event or to the end of the stage.
+  template <class Stage>
+  [[nodiscard]] Outcome run_mode(Stage& stage) {
+    if constexpr (E.loose) {
+      const motion::LooseState<Number>& loose = stage.state.loose;
+      if (!loose.pressed && modes::lies_pressed(*this, stage.state)) laws::press(*this, stage, loose.wall, Number(0));
+      if (loose.pressed) return run_carrying(stage);
     }
-    if constexpr (sizeof...(Others) > 0) return run_mode(stage, std::tuple<Others...>());
-    return Outcome::completed;  // the last has any state
+    return modes::run_first(*this, stage);
   }
 
   [[nodiscard]] static Number low_beside(const BasicScene<Number>& scene, Side side,
@@ -127,8 +112,7 @@ class EventDriven : public IntegratorBase<N, E> {
     return E.rest ? Number(rule.low[index_of(side)] * motion::displacements_beside(scene, side)) : Number(0);
   }
 
-  [[no_unique_address]] std::conditional_t<E.loose, motion::Walls<Number>, motion::NoWalls> walls_;
-  bool soft_stops_;            ///< asked at each arc: general methods have one set of effects for soft and rigid stops
+  [[no_unique_address]] std::conditional_t<E.loose, Housing<Number, E>, NoHousing> housing_;
   std::array<Number, 2> low_;  ///< [stop]: rebounds of chatter that is summed aren't higher
   Number chatter_accuracy_;    ///< of a sum
 };

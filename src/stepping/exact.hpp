@@ -38,13 +38,20 @@ class Exact : public EventDriven<Exact<N, E, Search>, N, E> {
         const motion::ChatterRule<Number>& rule)
       : EventDriven<Exact, N, E>(scene, in_reach, limits, rule), search_(this->constants(), in_reach) {}
 
-  /// The arc that begins with `start`, and its first contact, or its end at the horizon.
-  [[nodiscard]] ArcToEvent<motion::Arc<Number, E.arc()>> fly(const motion::State<Number>&,
-                                                             const motion::Motion<Number>& start, const Number& anchor,
-                                                             const Number& horizon) {
-    ArcToEvent<motion::Arc<Number, E.arc()>> flight{motion::Arc<Number, E.arc()>(this->constants(), start, anchor)};
-    if constexpr (E.stops()) {
+  /// The arc that begins with `start`, and its first contact, or its end at the horizon. Without stops a loose mass
+  /// ends it, and its motion there isn't computed.
+  template <Effects Of>
+  [[nodiscard]] ArcToEvent<motion::Arc<Number, Of>> fly(const motion::ArcConstants<Number, Of>& constants,
+                                                        const motion::State<Number>&,
+                                                        const motion::Motion<Number>& start, const Number& anchor,
+                                                        const Number& horizon) {
+    ArcToEvent<motion::Arc<Number, Of>> flight{motion::Arc<Number, Of>(constants, start, anchor)};
+    if constexpr (E.stops() && Of == E.arc() && !E.loose) {
       flight.crossing = search_(flight.arc, this->stops(), horizon);
+    } else if constexpr (E.stops()) {
+      flight.crossing = next_contact(flight.arc, this->stops(), horizon);
+    } else if constexpr (E.loose) {
+      flight.crossing = {0, Side::none, horizon, start};
     } else {
       const motion::Motion<Number> there = flight.arc.at(horizon);
       flight.crossing = {0, Side::none, horizon, there, 1, this->finite(there.x)};
@@ -65,31 +72,31 @@ class Exact : public EventDriven<Exact<N, E, Search>, N, E> {
     return flight;
   }
 
-  /// The flight of a loose mass in its housing up to its next impact on a wall, or to the horizon.
-  [[nodiscard]] ArcToEvent<motion::RelativeArc<Number, E.arc()>> fly_in_housing(
-      const motion::State<Number>&, const motion::Motion<Number>& start, const Number& anchor,
-      const motion::RelativeStart<Number>& loose, const motion::Walls<Number>& walls,
-      const Number& horizon) requires(E.loose) {
-    const motion::Arc<Number, E.arc()> main(this->constants(), start, anchor);
-    ArcToEvent<motion::RelativeArc<Number, E.arc()>> flight{{main, loose, walls.load}};
-    flight.crossing = next_contact(flight.arc, walls.places, horizon);
-    this->count_evaluations(flight.crossing.evaluations);
-    return flight;
+  /// The motion of a loose mass beside an arc of the main one.
+  template <Effects Of>
+  [[nodiscard]] static motion::RelativeArc<Number, Of> beside(const motion::Arc<Number, Of>& main,
+                                                              const motion::RelativeStart<Number>& start,
+                                                              const Number& load) {
+    return {main, start, load};
   }
-  /// Both masses as one while a wall presses the loose one, or for all of the time.
-  template <Effects Both>
-  [[nodiscard]] ArcToEvent<motion::Arc<Number, Both>> carry(const motion::ArcConstants<Number, Both>& constants,
-                                                            const motion::State<Number>&,
-                                                            const motion::Motion<Number>& start, const Number& anchor,
-                                                            const Pressing<Number>& pressing,
-                                                            const Number& horizon) requires(E.loose) {
-    ArcToEvent<motion::Arc<Number, Both>> flight{motion::Arc<Number, Both>(constants, start, anchor)};
-    if (pressing.wall == Side::none)
-      flight.crossing = {1, Side::none, horizon, flight.arc.at(horizon)};
-    else
-      flight.crossing = end_of_press(flight.arc, pressing.wall, pressing.load, horizon);
-    this->count_evaluations(flight.crossing.evaluations);
-    return flight;
+  template <Effects Of>
+  [[nodiscard]] motion::Crossing<Number> meet_wall(const motion::RelativeArc<Number, Of>& beside, const Stops& walls,
+                                                   const Number& horizon) {
+    const motion::Crossing<Number> contact = next_contact(beside, walls, horizon);
+    this->count_evaluations(contact.evaluations);
+    return contact;
+  }
+  template <Effects Of>
+  [[nodiscard]] motion::Crossing<Number> let_go(const motion::Arc<Number, Of>& main, const Pressing<Number>& pressing,
+                                                const Number& horizon) {
+    const motion::Crossing<Number> end = end_of_press(main, pressing.wall, pressing.load, horizon);
+    this->count_evaluations(end.evaluations);
+    return end;
+  }
+  [[nodiscard]] static motion::Arc<Number, HeldConstants<Number>::effects> held_arc(
+      const HeldConstants<Number>& constants, const motion::State<Number>&, const motion::Motion<Number>& start,
+      const Number& anchor, const Number&) {
+    return {constants, start, anchor};
   }
 
  private:

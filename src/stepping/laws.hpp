@@ -7,6 +7,7 @@
 #include "motion/contact_force.hpp"
 #include "motion/soft_stop.hpp"
 #include "stepping/integrator.hpp"
+#include "stepping/modes/housing.hpp"
 #include "stepping/stage.hpp"
 
 namespace clatter::stepping {
@@ -28,6 +29,24 @@ void complete_chatter(const Loop& loop, motion::State<Number>& state, const Numb
   state.phase_turns += left / loop.period();
   state.v = 0, state.chatters = false;
 }
+/// Whether nothing can tell the rest of a chatter on a stop from a rest. With a loose mass, which may strike while it
+/// lasts, chatter isn't summed.
+template <class Loop, class Number>
+[[nodiscard]] bool fades(const Loop& loop, const motion::State<Number>& state, const motion::Stop<Number>& stop) {
+  using std::abs;
+  const Number force = contact_force(loop.constants(), stop, loop.phase(state)).force, rebound = abs(state.v);
+  const bool is_struck = state.loose.wall != Side::none && state.loose.place == 0;
+  if (!(force > 0) && !is_struck) return false;
+  if (2 * rebound <= force * epsilon<Number>() * loop.period()) return true;
+  return loop.loses() && rebound <= modes::faded_speed(loop, stop.position);
+}
+/// A loose mass keeps its own velocity in an impact of the main one, so that it leaves a wall that pressed it.
+template <class Number>
+void keep_on(motion::State<Number>& state, const Number& before) {
+  if (state.loose.wall == Side::none || state.v == before) return;
+  state.loose.speed += before - state.v;
+  state.loose.pressed = state.loose.may_part = false;
+}
 /// An impact on a rigid stop, and the sum of the chatter that may follow.
 template <class Loop, class Stage>
 [[nodiscard]] Outcome impact(Loop& loop, Stage& stage, const motion::Stop<typename Loop::Number>& stop) {
@@ -36,8 +55,14 @@ template <class Loop, class Stage>
   const Number before = state.v;
   reverse(state, stop);
   if (before != 0) stage.show_impact(stop, before);
-  if (Loop::effects.rest && state.v != 0) {
-    if (const auto left = loop.chatter_time(state, stop)) {
+  if constexpr (Loop::effects.loose) {
+    if (Loop::effects.rest && state.v != 0 && fades(loop, state, stop)) {
+      stage.show_chatter(state, stop, Number(0), Number(0));
+      state.v = 0;
+    }
+    keep_on(state, before);
+  } else if constexpr (Loop::effects.rest) {
+    if (const auto left = state.v != 0 ? loop.chatter_time(state, stop) : std::nullopt) {
       state.chatters = true;
       if (!(state.phase_turns + *left / loop.period() >
             stage.end)) {  // else its state at the end isn't known: it flies
@@ -91,25 +116,33 @@ template <class Loop, class Stage>
   return loop.count_impact() ? Outcome::completed : Outcome::event_budget;
 }
 
-/// Holds a mass until a release, or up to the end of the stage.
-template <class Stage, class Number>
-[[nodiscard]] Outcome hold(Stage& stage, Side side, const std::optional<Number>& release) {
-  const Number until = release ? *release : stage.end;
-  if (release) stage.state.released = true;
-  stage.show_rest(side, Number(until - stage.state.phase_turns), true);
+/// Leaves a mass where it is for some turns, up to the phase `until`, unless a loose mass strikes before.
+template <class Loop, class Stage, class Number>
+[[nodiscard]] Outcome stay(Loop& loop, Stage& stage, Side side, const Number& turns, const Number& until, bool held) {
+  if constexpr (Loop::effects.loose) return modes::stay_in_housing(loop, stage, side, until, held);
+  stage.show_rest(side, turns, held);
   stage.state.phase_turns = until;
   return Outcome::completed;
 }
+/// Holds a mass until a release, or up to the end of the stage.
+template <class Loop, class Stage, class Number>
+[[nodiscard]] Outcome hold(Loop& loop, Stage& stage, Side side, const std::optional<Number>& release) {
+  auto& state = stage.state;
+  const Number until = release ? *release : stage.end;
+  const Outcome outcome = stay(loop, stage, side, Number(until - state.phase_turns), until, true);
+  if (release && state.v == 0 && state.phase_turns == until) state.released = true, state.loose.may_part = true;
+  return outcome;
+}
 /// Moves a mass at rest past an instant at which the force that holds it is zero to rounding, so its sign decides
 /// nothing. After sqrt(epsilon) of a period it is clear of rounding; the mass moves by far less than an ulp.
-template <class Stage>
-[[nodiscard]] Outcome wait(Stage& stage, Side side) {
+template <class Loop, class Stage>
+[[nodiscard]] Outcome wait(Loop& loop, Stage& stage, Side side) {
   using std::min, std::sqrt;
   using Number = typename Stage::Number;
   const Number turns = min(Number(stage.end - stage.state.phase_turns), Number(sqrt(epsilon<Number>())));
-  stage.show_rest(side, turns, false);
-  stage.state.phase_turns += turns, stage.state.released = false;
-  return Outcome::completed;
+  const Outcome outcome = stay(loop, stage, side, turns, Number(stage.state.phase_turns + turns), false);
+  stage.state.released = false;
+  return outcome;
 }
 
 }  // namespace laws

@@ -26,7 +26,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
   static constexpr bool in_closed_form = false;
 
   explicit Moreau(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
-      : Base(scene, integration, limits), walls_(this->constants(), scene.loose) {}
+      : Base(scene, integration, limits), walls_(scene.loose), carrying_(this->constants(), scene.loose) {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and reports every step's arcs
   /// and events with their times since the section `origin`.
@@ -65,7 +65,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
     const motion::LooseState<double> loose = state.loose;
     if (loose.wall == Side::none || loose.place != 0 || !(sign_of(loose.wall) * loose.speed > 0)) return true;
     const double v_after = walls_.rule.main_after(state.v, loose.speed);
-    return strike(stage, loose.wall, loose.speed, walls_.rule.law.after(loose.speed), v_after);
+    return strike(stage, loose.wall, loose.speed, walls_.rule.law(loose.wall).after(loose.speed), v_after);
   }
 
   /// The wall that the loose mass is beyond in the middle of a step, at its present z'.
@@ -85,7 +85,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
     const Side side = state.loose.pressed ? state.loose.wall : active(loose, free.length);
     const int sign = sign_of(side);
     bool affordable = true;
-    if (side == Side::none || !(sign * w_free > sign * walls_.rule.law.after(loose.w))) {
+    if (side == Side::none || !(sign * w_free > sign * walls_.rule.law(side).after(loose.w))) {
       state.loose.pressed = false;
       fly(stage, loose, free.length, v_free, w_free);
     } else if (state.loose.pressed || loose.w == 0) {
@@ -125,7 +125,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
   template <class Stage>
   void carry(Stage& stage, double turns) {
     motion::State<double>& state = stage.state;
-    walls_.carrying.with_constants([&](const auto& constants) {
+    carrying_.with_constants([&](const auto& constants) {
       const StepEnd both = this->step_end(constants, state, turns);
       hold(constants, stage, both.length, both.momentum / both.mass);
     });
@@ -138,7 +138,12 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
     const auto arc = this->arc(constants, state.x, state.phase_turns, length,
                                cubic(length, {0.0, state.v}, {way, v_end}), this->ramp(length, state.v, v_end));
     stage.show(motion::HousedArc{arc, motion::Pressed{side, walls_.place(side)}}, length);
-    stage.show({Kind::hold, side, begin, 0.0, length, 0.0, walls_.place(side)});
+    stage.show({.kind = Kind::hold,
+                .side = side,
+                .time = begin,
+                .length = length,
+                .place = walls_.place(side),
+                .has_arc = true});
     state.x += way, state.v = v_end;
   }
 
@@ -149,7 +154,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
     motion::State<double>& state = stage.state;
     const int sign = sign_of(side);
     const double before = sign * loose.w > 0 ? loose.w : w_free;  // leaving too slowly: pushed back by the forces
-    const double rebound = walls_.rule.law.after(before);
+    const double rebound = walls_.rule.law(side).after(before);
     const double pressing = sign * (walls_.load - this->force(this->constants(), state.x, state.v, free.sine));
     const bool flies = -2 * sign * rebound > pressing * free.length && sign * loose.w > 0;
     const double after = flies ? rebound : 0.0, share = walls_.rule.ratio / (walls_.rule.ratio + free.mass);
@@ -165,8 +170,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
       fly(stage, loose_of(state), free.length - until, state.v, after);
     } else {
       press(stage, side);
-      walls_.carrying.with_constants(
-          [&](const auto& constants) { hold(constants, stage, free.length - until, state.v); });
+      carrying_.with_constants([&](const auto& constants) { hold(constants, stage, free.length - until, state.v); });
     }
     state.phase_turns = turns;
     return affordable;
@@ -200,6 +204,7 @@ requires(E.loose) class Moreau<E> : public ThetaSteps<E> {
   }
 
   motion::Walls<double> walls_;
+  motion::CarryingOscillator<double> carrying_;
 };
 
 }  // namespace clatter::stepping

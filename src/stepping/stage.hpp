@@ -22,6 +22,10 @@ class Stage {
 
   State& state;
   const Number& end;
+  bool keeps_pressed = false;  ///< a loose mass stays on the wall that it is on
+
+  /// The same up to another phase.
+  [[nodiscard]] Stage up_to(const Number& other) const { return {integrator_, state, other, origin_, observer_}; }
 
   [[nodiscard]] double time() const { return integrator_.time(state, origin_); }
   [[nodiscard]] Number time_left() const { return (end - state.phase_turns) * integrator_.period(); }
@@ -43,11 +47,11 @@ class Stage {
     show({kind, side, time(), v, 0.0, v, static_cast<double>(side == Side::upper ? stops.upper : stops.lower),
           static_cast<double>(state.phase_turns)});
   }
-  /// A mass stays where it is: on a stop, or by friction alone.
-  void show_rest(Side side, const Number& turns, bool held) const {
+  /// A mass stays where it is: on a stop, or by friction alone. With a loose mass an arc tells so, too.
+  void show_rest(Side side, const Number& turns, bool held, double carried = 0.0) const {
     const Kind kind = side == Side::none ? Kind::stick : held ? Kind::rest : Kind::chatter;
     show({kind, side, time(), 0.0, static_cast<double>(turns * integrator_.period()), 0.0, static_cast<double>(state.x),
-          0.0, held});
+          0.0, held, Integrator::effects.loose, carried});
   }
   /// Of a slip, with the accelerations on both sides.
   void show_reversal(const Number& before, const Number& after) const {

@@ -68,9 +68,9 @@ void name_observable(std::string_view key, results::Variable& variable) {
   variable.attributes.emplace_back("observable", std::string(key));
 }
 
-void add_drawn_names(bool is_si, results::Dataset& dataset, bool has_loose_mass) {
+void add_drawn_names(bool is_si, results::Dataset& dataset, bool has_loose_mass, bool on_walls) {
   for (results::Variable& variable : dataset.variables) {
-    auto [words, symbol] = observables::drawn_name(variable.name, is_si, has_loose_mass);
+    auto [words, symbol] = observables::drawn_name(variable.name, is_si, on_walls);
     if (!words.empty()) variable.attributes.emplace_back("label", std::move(words));
     if (!symbol.empty()) variable.attributes.emplace_back("symbol", std::move(symbol));
   }

@@ -19,8 +19,8 @@ void name_frame(const Sweep& sweep, observables::FrameOf frame, results::Variabl
 void name_observable(std::string_view key, results::Variable& variable);
 
 /// Says how pictures name each variable, by the attributes `label` and `symbol`, and the constants of the scene, by the
-/// root attribute `scene_names`.
-void add_drawn_names(bool is_si, results::Dataset& dataset, bool has_loose_mass = false);
+/// root attribute `scene_names`; `on_walls`: impacts are those of a loose mass.
+void add_drawn_names(bool is_si, results::Dataset& dataset, bool has_loose_mass, bool on_walls);
 
 /// Names linked axes in the attribute `coordinates` of each variable over their dimension, so that readers take them
 /// for coordinates (CF conventions, 5). Call it once all variables are added.

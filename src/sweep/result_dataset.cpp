@@ -33,7 +33,7 @@ class Maker {
       if (!output.intermediate || shard_) add(output);
     if (numbering) add_attractors(sweep_, shard_.has_value(), along_, std::move(*numbering), dataset_);
     if (sweep_.problem.observe.impact_log) add_impact_log();
-    add_drawn_names(sweep_.problem.is_si, dataset_, has_loose_mass(sweep_));
+    add_drawn_names(sweep_.problem.is_si, dataset_, has_loose_mass(sweep_), sweep_.problem.observe.loose_impacts);
     name_linked_axes(sweep_, dataset_);
     name_samples(sweep_, dataset_);
     return std::move(dataset_);
@@ -111,7 +111,11 @@ class Maker {
       name_frame(sweep_, column.frame, variable);
       variable.missing_if = column.missing_if;
       if (column.name == "impact_tau")
-        add<std::int8_t>("impact_stop", {"impact"}, "stop that is hit, -1: lower, +1: upper");
+        add<std::int8_t>(
+            "impact_stop", {"impact"},
+            sweep_.problem.observe.wall_log
+                ? "stop or wall that is hit, -1: lower stop, +1: upper stop, -2: lower wall, +2: upper wall"
+                : "stop that is hit, -1: lower, +1: upper");
     }
   }
 

@@ -231,7 +231,7 @@ results::NextValues ResultStore::values_of(std::string_view variable) {
     });
   if (variable == "impact_stop")
     return next_of_log<std::int8_t>(share_.points(), scratch_, log_of,
-                                    [](const LoggedImpact& impact) { return static_cast<std::int8_t>(impact.side); });
+                                    [](const LoggedImpact& impact) { return impact.stop; });
   for (const LogColumn& column : observables::log_columns_of_shaken)
     if (column.name == variable)
       return next_of_log<double>(share_.points(), scratch_, log_of,

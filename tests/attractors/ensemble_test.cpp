@@ -99,7 +99,8 @@ TEST(Ensemble, takes_the_states_before_and_after_an_impact_for_one) {
 }
 
 TEST(Ensemble, takes_the_states_of_a_loose_mass_before_and_after_an_impact_for_one) {
-  const Scene scene{.loose = {.ratio = 0.25, .lower = -1.0, .upper = 2.0, .restitution = 0.5}};
+  const Scene scene{
+      .loose = {.ratio = 0.25, .lower = -1.0, .upper = 2.0, .restitution_lower = 0.5, .restitution_upper = 0.5}};
   const SectionState after = after_impact(scene, {0.3, 0.1, -1.0 + 1e-10, -2.0}, 2.0);
   EXPECT_EQ(after.x, 0.3);
   EXPECT_EQ(after.w, 1.0);

@@ -33,8 +33,10 @@ NamedScene named(const char* name, const Oscillator& oscillator, const LooseMass
 
 /// Two impacts a period; chatter and a press in each; motion without a period.
 std::vector<NamedScene> scenes() {
-  const LooseMass light{.ratio = 0.02, .lower = -0.4, .upper = 0.4, .restitution = 0.8, .velocity = 0.3};
-  const LooseMass pressed{.ratio = 0.5, .lower = -0.1, .upper = 1, .restitution = 0.3, .load = -0.3};
+  const LooseMass light{
+      .ratio = 0.02, .lower = -0.4, .upper = 0.4, .restitution_lower = 0.8, .restitution_upper = 0.8, .velocity = 0.3};
+  const LooseMass pressed{
+      .ratio = 0.5, .lower = -0.1, .upper = 1, .restitution_lower = 0.3, .restitution_upper = 0.3, .load = -0.3};
   return {named("regular", {.damping = 0.005, .forcing = 0.01, .frequency = 1}, light, 300),
           named("presses", {.damping = 0.1, .forcing = 0.4, .frequency = 0.6}, pressed, 300),
           named("chaotic", {.damping = 0.005, .forcing = 0.003, .frequency = 1}, light, 30)};

@@ -147,10 +147,10 @@ void expect_runs(const sweep::GivenProblem& problem, Parameter along, std::array
     }
     const double h = point.scene.oscillator.damping, nu = point.scene.oscillator.frequency,
                  impacts = static_cast<double>(point.orbit.whole().size());
-    EXPECT_NEAR(
-        product,
-        std::exp(-4 * pi * h / nu * point.orbit.period_ratio()) * std::pow(point.scene.loose.restitution, 2 * impacts),
-        1e-9)
+    EXPECT_NEAR(product,
+                std::exp(-4 * pi * h / nu * point.orbit.period_ratio()) *
+                    std::pow(point.scene.loose.restitution_lower, 2 * impacts),
+                1e-9)
         << where;
     ++compared;
   }
@@ -184,7 +184,8 @@ TEST(Housing, has_the_motion_of_runs_of_a_machine_in_si) {
   machine.is_si = true, machine.mass = m;
   machine.oscillator = {.forcing = 0.3 * k * 1e-3, .frequency = 1.2 * rate / (2 * pi), .stiffness = k};
   machine.damper = 2 * scene.oscillator.damping * m * rate;
-  machine.loose = {.ratio = 0.05 * m, .lower = -1.9e-3, .upper = 1.9e-3, .restitution = 0.6};
+  machine.loose = {
+      .ratio = 0.05 * m, .lower = -1.9e-3, .upper = 1.9e-3, .restitution_lower = 0.6, .restitution_upper = 0.6};
   machine.loose.velocity = 0.5e-3 * rate;
   expect_runs(machine, Parameter("frequency"), {1.15 * rate / (2 * pi), 1.25 * rate / (2 * pi)});
   expect_runs(machine, Parameter("loose_mass"), {0.01, 0.02});

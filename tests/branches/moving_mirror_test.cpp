@@ -86,7 +86,11 @@ TEST(MovingMirror, loses_no_symmetry_along_the_mass) {
                           .stiffness = k};
     problem.damper = 2 * 0.16 / std::sqrt(1.65) * m * rate;
     problem.start.displacement = load * length;
-    problem.loose = {.ratio = 0.076 * m, .lower = -0.1865 * length, .upper = 0.1865 * length, .restitution = 0.227};
+    problem.loose = {.ratio = 0.076 * m,
+                     .lower = -0.1865 * length,
+                     .upper = 0.1865 * length,
+                     .restitution_lower = 0.227,
+                     .restitution_upper = 0.227};
     problem.loose.velocity = -0.1 / std::sqrt(1.65) * length * rate;
     return problem;
   };

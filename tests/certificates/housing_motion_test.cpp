@@ -40,14 +40,15 @@ TEST(HousingEvents, a_press_after_an_impact_without_a_rebound_or_after_none_has_
 point::Problem thrown() {
   point::Problem problem;
   problem.oscillator = {.damping = 0.5, .forcing = 1.0, .frequency = 0.8};
-  problem.loose = {.ratio = 0.1, .lower = -0.5, .restitution = 0.2, .load = -0.6, .place = 0.1};
+  problem.loose = {
+      .ratio = 0.1, .lower = -0.5, .restitution_lower = 0.2, .restitution_upper = 0.2, .load = -0.6, .place = 0.1};
   return problem;
 }
 
 /// The derivative of the whole motion is that of runs beside it.
 TEST(HousingMotion, the_derivative_is_that_of_the_difference_of_runs) {
   point::Problem problem = thrown();
-  problem.loose.upper = 0.5, problem.loose.restitution = 0.8;
+  problem.loose.upper = 0.5, problem.loose.restitution_lower = 0.8, problem.loose.restitution_upper = 0.6;
   const auto motion = recorded_in_housing(problem, 1.0);
   ASSERT_TRUE(motion);
   EXPECT_GT(motion->events.size(), 2U);

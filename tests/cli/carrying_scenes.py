@@ -41,6 +41,11 @@ def carrying(draw):
         "loose_mass": draw.choice([logarithmic(draw, 1e-3, 0.1), logarithmic(draw, 0.1, 3)]),
         "loose_R": draw.choice([0.0, 1.0, draw.uniform(0.05, 0.6), draw.uniform(0.3, 0.95), draw.uniform(0.3, 0.95)]),
     }
+    if draw.random() < 0.3:
+        keys |= {
+            "loose_R_lower": keys.pop("loose_R"),
+            "loose_R_upper": draw.choice([0.0, 1.0, draw.uniform(0.05, 0.95)]),
+        }
     low, high = walls(draw, keys)
     load = draw.choice([0.0, 0.0, draw.uniform(-1.5, 1.5)])
     if not math.isfinite(low) or not math.isfinite(high):

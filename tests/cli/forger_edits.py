@@ -7,6 +7,7 @@ import copy
 import math
 
 from forger_judge import LAST, OTHER, Unreliable, number, period_of
+from forgeries import holder_of_R
 
 
 def widened(certificate, error):
@@ -232,7 +233,7 @@ def claimed_from(events, scene, draw, error):
     """Claims of the events of a simulated motion, of whose chatters some impacts are listed."""
     claims = []
     for event in events:
-        rigid = scene.get("loose", scene.get(event.get("stop"), {}))
+        rigid = holder_of_R(scene, event.get("stop"))
         if event["event"] in ("rest", "press") and claims and number(rigid["R"]) > 0:
             series = len(claims)
             while series > 0 and claims[series - 1]["event"] in ("impact", "reversal"):

@@ -11,8 +11,9 @@ class HousedMotion:
     def __init__(self, scene, start, end):
         h, k, f, nu, phase, load = (number(scene[name]) for name in ("h", "k", "f", "nu", "phase", "load"))
         loose = scene["loose"]
-        self.mass, self.R, self.load = (number(loose[name]) for name in ("mass", "R", "load"))
+        self.mass, self.load = number(loose["mass"]), number(loose["load"])
         self.walls = {side: number(loose[side]["position"]) for side in SIGN if side in loose}
+        self.restitution = {side: number(loose[side].get("R", loose.get("R"))) for side in self.walls}
         whole, self.share = 1 + self.mass, self.mass / (1 + self.mass)
         self.alone = Flow(h, k, f, nu, phase, load)
         self.both = Flow(h / whole, k / whole, f / whole, nu, phase, (load + self.mass * self.load) / whole)
@@ -47,12 +48,12 @@ class HousedMotion:
     def strike(self, side):
         self.events.append({"event": "impact", "stop": side, "time": self.t, "w": self.w})
         push = SIGN[side] * (self.load - self.alone.push(self.t, self.x, self.v))
-        self.z = self.walls[side]
-        rests = abs(self.R * self.w) < SLOW and push > 1e-6
-        if abs(self.R * self.w) < SLOW and not rests and self.R > 0:
+        self.z, R = self.walls[side], self.restitution[side]
+        rests = abs(R * self.w) < SLOW and push > 1e-6
+        if abs(R * self.w) < SLOW and not rests and R > 0:
             raise Unreliable("whether a wall presses")
-        self.v += (1 + (0 if rests else self.R)) * self.share * self.w
-        self.w = 0.0 if rests else -self.R * self.w
+        self.v += (1 + (0 if rests else R)) * self.share * self.w
+        self.w = 0.0 if rests else -R * self.w
         self.pressed = side if rests else None
 
     def press(self):

@@ -29,10 +29,15 @@ def rests(certificate):
     return [i for i, event in enumerate(certificate["events"]) if event["event"] in ("rest", "press")]
 
 
+def holder_of_R(scene, stop):
+    """The object that has the restitution of a rigid stop, of a wall of a loose mass, or of both walls."""
+    housing = scene.get("loose", {})
+    return housing if "R" in housing else (housing or scene).get(stop, {})
+
+
 def restitution(certificate, event):
-    """That of a rigid stop, or of the walls of a loose mass."""
-    scene = certificate["scene"]
-    return scene.get("loose", scene.get(event["stop"]))["R"]
+    """That of a rigid stop, or of a wall of a loose mass."""
+    return holder_of_R(certificate["scene"], event["stop"])["R"]
 
 
 def rest_name(certificate):
@@ -221,7 +226,7 @@ def wrong_restitution(certificate):
         return None
     for event in certificate["events"]:
         if event["event"] == "impact":
-            of = certificate["scene"].get("loose", certificate["scene"].get(event["stop"]))
+            of = holder_of_R(certificate["scene"], event["stop"])
             of["R"] = of["R"] * 0.999 + 1e-4
             return certificate
 

@@ -41,12 +41,21 @@ class Refusals(CommandLine):
         self.assert_told(f'{SCENE}[observe]\nsensitivity = "loose_x0"\n', ("'loose_x0'", "a start"))
 
     def test_what_the_main_mass_does_not_have_beside_it(self):
-        beside = {"xs": "2", "stop_lower": "-3", "stop_upper": "3", "friction": "0.1", "friction_static": "0.1"}
-        beside |= {"stop_amplitude": "0.1", "start_period": "3", "stiffness": "0"}
-        for key, value in beside.items():
+        for key, value in {"stop_amplitude": "0.1", "start_period": "3"}.items():
             with self.subTest(key=key):
                 self.assert_told(f"{SCENE}{key} = {value}\n", (key,))
-        self.assert_told(f'{MACHINE}loose_gap = "5 mm"\ngap = "9 mm"\n', ("'gap'", "loose_mass"))
+
+    def test_what_does_not_know_stops_beside_it(self):
+        asked = ("attractor = true", 'sensitivity = "nu"')
+        for own in ("xs = 2", "stop_upper = 3", "friction = 0.1", "stiffness = 0"):
+            for line in asked:
+                with self.subTest(own=own, line=line):
+                    self.assert_told(f"{SCENE}{own}\n[observe]\n{line}\n", ("loose_mass", line.split()[0]))
+            self.assert_told(f'{SCENE}{own}\n[integrator]\nmethod = "moreau"\n', ("moreau", "exact"))
+            branch = f'{SCENE}{own}\n[branch]\nalong = "nu"\nrange = [1, 2]\n'
+            self.assert_told(branch, ("loose_mass", "[branch]"), "branch")
+            if own != "stiffness = 0":
+                self.assert_told(f"{SCENE}{own}\nbase_amplitude = 0.1\n", ("loose_mass", "base_amplitude"))
 
     def test_what_it_needs(self):
         self.assert_told(SCENE.replace("loose_gap = 1.9\n", ""), ("loose_mass", "loose_gap"))

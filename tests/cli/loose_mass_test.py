@@ -155,7 +155,7 @@ def drawn(seed):
     scene = {"h": draw(0.02, 0.3), "stiffness": draw(0.5, 2), "f": draw(0.3, 1), "nu": draw(0.6, 1.6)}
     scene |= {"phase": draw(0, 6), "load": draw(-0.2, 0.2), "x0": draw(-0.5, 0.5), "v0": draw(-0.5, 0.5)}
     scene |= {"loose_mass": draw(0.01, 0.5), "loose_lower": draw(-1, -0.3), "loose_upper": draw(0.3, 1)}
-    scene |= {"loose_R": draw(0.3, 0.8), "loose_load": draw(-0.1, 0.1)}
+    scene |= {"loose_R_lower": draw(0.3, 0.8), "loose_R_upper": draw(0.3, 0.8), "loose_load": draw(-0.1, 0.1)}
     return scene | {"loose_x0": draw(-0.3, 0.3), "loose_v0": draw(-0.5, 0.5)}
 
 
@@ -168,8 +168,10 @@ def scaled(scene, length=1.0, rate=1.0):
 
 
 def mirrored(scene):
-    other = {key: -value if key in ACCELERATIONS + SPEEDS + LENGTHS else value for key, value in scene.items()}
-    return {**other, "loose_lower": -scene["loose_upper"], "loose_upper": -scene["loose_lower"]}
+    swapped = {
+        key: scene[key.replace("lower", "UPPER").replace("upper", "lower").replace("UPPER", "upper")] for key in scene
+    }
+    return {key: -value if key in ACCELERATIONS + SPEEDS + LENGTHS else value for key, value in swapped.items()}
 
 
 def in_scenes(count=8):
@@ -213,7 +215,8 @@ class Relations(LooseMass):
     def test_a_machine_is_its_scene_in_SI(self, scene):
         mass = 0.35
         si = scaled(scene, 2e-3, 90.0)
-        machine = {key: si[key] for key in (*LENGTHS, *SPEEDS, "phase", "loose_R", "loose_load") if key in si}
+        walls = ("loose_R_lower", "loose_R_upper", "loose_load")
+        machine = {key: si[key] for key in (*LENGTHS, *SPEEDS, *walls, "phase") if key in si}
         machine |= {"mass": mass, "stiffness": si["stiffness"] * mass, "damping": 2 * si["h"] * mass}
         machine |= {"force": si["f"] * mass, "load": si["load"] * mass, "frequency": si["nu"] / (2 * math.pi)}
         machine |= {"loose_mass": f"{1e3 * mass * si['loose_mass']!r} g"}
@@ -260,8 +263,9 @@ class Relations(LooseMass):
         gain = math.hypot(scene["x0"], scene["v0"] / scene["nu"])
         ball = {"stiffness": 0.0, "load": scene["loose_load"], "nu": scene["nu"], "base_amplitude": gain}
         ball |= {"phase": math.atan2(scene["x0"], scene["v0"] / scene["nu"]), "x0": scene["loose_x0"]}
-        ball |= {"v0": scene["loose_v0"], "R": scene["loose_R"]}
-        ball |= {"stop_lower": scene["loose_lower"], "stop_upper": scene["loose_upper"]}
+        ball |= {"v0": scene["loose_v0"]}
+        for side in ("lower", "upper"):
+            ball |= {f"R_{side}": scene[f"loose_R_{side}"], f"stop_{side}": scene[f"loose_{side}"]}
         one, other = self.transient(scene), self.transient(ball)
         for name, of_ball in (("z", "x"), ("w", "v")):
             np.testing.assert_allclose(one[name], other[of_ball], atol=1e-7)
@@ -302,13 +306,13 @@ class Relations(LooseMass):
     @in_scenes()
     def test_forces_losses_and_growth_balance(self, scene):
         data = self.transient(scene, samples=2, energy=True)
-        k, eps, R = scene["stiffness"], scene["loose_mass"], scene["loose_R"]
+        k, eps = scene["stiffness"], scene["loose_mass"]
         energy = (data["v"] ** 2 + k * data["x"] ** 2 + eps * (data["v"] + data["w"]) ** 2) / 2
         losses = data["loss_damping"] + data["loss_impact"].sum()
         np.testing.assert_allclose(data["work_in"] - losses, energy[1] - energy[0], atol=1e-12)
         self.assertLess(abs(data["energy_residual"]), 1e-12)
-        for i, side in enumerate((-1, 1)):
-            speeds = data["impact_v_before"][data["impact_stop"] == side]
+        for i, (side, key) in enumerate(((-1, "loose_R_lower"), (1, "loose_R_upper"))):
+            R, speeds = scene[key], data["impact_v_before"][data["impact_stop"] == side]
             lost = eps / (1 + eps) * (1 - R * R) * np.sum(speeds**2) / 2
             np.testing.assert_allclose(data["loss_impact"][i], lost, rtol=1e-9, atol=1e-13)
 
@@ -319,7 +323,7 @@ class Relations(LooseMass):
 
     @in_scenes()
     def test_momentum_grows_by_the_loads_alone(self, scene):
-        scene.update(h=0.0, f=0.0, stiffness=1e-14, loose_R=1.0)
+        scene.update(h=0.0, f=0.0, stiffness=1e-14, loose_R_lower=1.0, loose_R_upper=1.0)
         data, eps = self.transient(scene), scene["loose_mass"]
         momentum = data["v"] + eps * (data["v"] + data["w"])
         grown = momentum[0] + (scene["load"] + eps * scene["loose_load"]) * data["tau"]

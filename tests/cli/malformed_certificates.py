@@ -105,6 +105,11 @@ MALFORMED = [  # a line, and the place and how to fix it that are told
     (in_scene(loose=LOOSE), "scene.lower: is given beside a loose mass; leave it out"),
     (with_loose_mass({**LOOSE, "mass": 0}), "scene.loose.mass: is 0; it must be above 0"),
     (with_loose_mass({**LOOSE, "R": -1}), "scene.loose.R: is -1; it must be at least 0 and at most 1"),
+    (
+        with_loose_mass({**LOOSE, "lower": {"position": -0.4, "R": 0.5}}),
+        "scene.loose.lower.R: is given beside that of both walls; leave one of them out",
+    ),
+    (with_loose_mass({key: LOOSE[key] for key in LOOSE if key != "R"}), "scene.loose.lower.R: is missing; add it"),
     (with_loose_mass({"mass": 1, "R": 1, "load": 0}), "scene.loose: has no walls; give lower, upper or both"),
     (with_loose_mass({**LOOSE, "lower": {"position": 1}}), "scene.loose: has its lower wall above the upper one; exch"),
     (with_loose_mass(LOOSE), "start.z: is missing; add it"),

@@ -36,7 +36,8 @@ class Scene:
     loose_mass: float = 0.0
     loose_lower: float = -INF
     loose_upper: float = INF
-    loose_R: float = 1.0
+    loose_R_lower: float = 1.0
+    loose_R_upper: float = 1.0
     loose_load: float = 0.0
     loose_x0: float = 0.0
     loose_v0: float = 0.0
@@ -53,7 +54,7 @@ class Scene:
         changes |= {name: 0.0 - getattr(self, name) for name in ("loose_load", "loose_x0", "loose_v0")}
         changes["stop_lower"], changes["stop_upper"] = -self.stop_upper, -self.stop_lower
         changes["loose_lower"], changes["loose_upper"] = -self.loose_upper, -self.loose_lower
-        for name in ("R", "stop_stiffness", "stop_damping"):
+        for name in ("R", "stop_stiffness", "stop_damping", "loose_R"):
             changes[name + "_lower"], changes[name + "_upper"] = swapped(name)
         return self.changed(**changes)
 
@@ -256,7 +257,8 @@ def carrying_scenes(count, seed):
         scene = Scene(h=logarithmic(draw, 2e-3, 0.2), nu=logarithmic(draw, 0.3, 3), f=draw.choice([-1, 1]))
         scene.stiffness = draw.choice([1.0, 1.0, logarithmic(draw, 0.3, 3)])
         scene.load, scene.loose_mass = draw.choice([0.0, draw.uniform(-0.5, 0.5)]), logarithmic(draw, 5e-3, 0.5)
-        scene.phase, scene.loose_R = draw.choice([0.0, draw.uniform(-math.pi, math.pi)]), draw.uniform(0.3, 0.95)
+        scene.phase, scene.loose_R_lower = draw.choice([0.0, draw.uniform(-math.pi, math.pi)]), draw.uniform(0.3, 0.95)
+        scene.loose_R_upper = draw.choice([scene.loose_R_lower, draw.uniform(0.3, 0.95)])
         detuning = math.hypot(scene.stiffness - scene.nu**2, 2 * scene.h * scene.nu)
         gap = draw.uniform(0.5, 4) / max(0.05, detuning)
         scene.loose_lower, scene.loose_upper = draw.choice([(-gap, gap), (-gap, gap), (0.0, gap), (-gap, 2 * gap)])

@@ -24,7 +24,7 @@ def keys_of(scene):
     optional = "stop_amplitude base_amplitude stop_phase friction friction_static".split()
     keys += [key for key in optional if getattr(scene, key) != 0]
     if scene.loose_mass:
-        keys += "loose_mass loose_R loose_load loose_x0 loose_v0".split()
+        keys += "loose_mass loose_R_lower loose_R_upper loose_load loose_x0 loose_v0".split()
         keys += [key for key in ("loose_lower", "loose_upper") if math.isfinite(getattr(scene, key))]
     return {key: getattr(scene, key) for key in keys}
 

@@ -84,9 +84,10 @@ h = 0.05
 f = 1.0
 loose_mass = 0.3
 loose_gap = 0.6
+loose_R_upper = 0.6
 [sweep]
 nu = [0.5, 0.8]
-loose_R = [0.4, 0.8]
+loose_R_lower = [0.4, 0.6, 0.8]
 """
 
 HOUSED_TRANSIENT = """[scene]

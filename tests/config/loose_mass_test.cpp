@@ -23,15 +23,28 @@ TEST(LooseMass, needs_its_keys_together) {
   expect_all("a.toml", table);
 }
 
-TEST(LooseMass, lies_on_a_mass_with_a_spring_alone) {
+TEST(LooseMass, is_on_a_mass_with_stops_friction_and_any_spring) {
+  const auto problem = [](const std::string& more) { return problem_at(parse_config(carried + more, "a").sweep, 0); };
+  const Scene stopped = problem("stop_upper = 1\nfriction = 0.1\nstiffness = -1\n[observe]\nword = true\n");
+  EXPECT_EQ(stopped.stops.upper, 1);
+  EXPECT_EQ(stopped.friction.kinetic, 0.1);
+  EXPECT_EQ(stopped.oscillator.stiffness, -1);
+  EXPECT_EQ(stopped.loose.ratio, 0.1);
+  for (const std::string own : {"xs = 1\n", "stop_upper = 1\nstop_stiffness = 9\n", "friction = 0.1\n"}) {
+    const auto observed = problem(own).observe;
+    EXPECT_TRUE(observed.wall_impacts && observed.wall_log && observed.word_walls && !observed.loose_impacts) << own;
+  }
+  for (const std::string none : {"", "stop_upper = inf\n", "friction = 0\n", "stiffness = 0\n"})
+    EXPECT_TRUE(problem(none).observe.loose_impacts && !problem(none).observe.wall_log) << none;
+}
+
+TEST(LooseMass, is_on_a_mass_that_is_not_shaken_beside_stops) {
   const std::vector<Wrong> table{
-      {carried + "xs = 1\n", "5:6", "'xs' conflicts with 'loose_mass'; leave it out: the walls of a loose mass"},
-      {carried + "stop_upper = 1\n", "5:14", "'stop_upper' conflicts with 'loose_mass'"},
-      {carried + "friction = 0.1\n", "5:12", "'friction' conflicts with 'loose_mass'; leave out one of them"},
       {carried + "stop_amplitude = 0.1\n", "5:18", "give base_amplitude, whose base carries the spring"},
-      {carried + "stiffness = 0\n", "5:13", "a stiffness that is not above 0 conflicts with 'loose_mass'"},
       {carried + "start_period = 3\n", "5:1", "'start_period' conflicts with 'loose_mass'; give x0 and v0 instead"},
-      {"[machine]\nmass = 1\nloose_mass = 0.1\nloose_gap = 2\n", "1:2", "'loose_mass' on a mass without a spring"},
+      {carried + "base_amplitude = 0.1\nxs = 1\n", "6:6", "a stop of the main mass conflicts with 'base_amplitude'"},
+      {carried + "base_amplitude = 0.1\nfriction = 1\n", "6:12", "leave one of the three out"},
+      {carried + "xs = 1\nx0 = 2\n", "6:6", "expected a start between the stops"},
   };
   expect_all("a.toml", table);
 }
@@ -44,6 +57,11 @@ TEST(LooseMass, is_refused_by_what_does_not_know_it) {
       {carried + "[observe]\nsensitivity = \"R\"\n", "6:15", "names 'R', which conflicts with 'loose_mass'"},
       {carried + "[observe]\nsensitivity = \"loose_v0\"\n", "6:15", "'loose_v0', a start"},
       {carried + "[sweep]\nloose_x0 = [0, 1]\nfollow = \"loose_x0\"\n", "7:10", "only the first point would start"},
+      {carried + "friction = 1\n[observe]\nattractor = true\n", "5:12", "friction of the main mass conflicts with"},
+      {carried + "xs = 1\n[observe]\nsensitivity = \"nu\"\n", "5:6", "leave that out, and take differences of runs"},
+      {carried + "xs = 1\n[integrator]\nmethod = \"moreau\"\n", "5:6", "take \"exact\" or \"dopri5\""},
+      {carried + "stiffness = 0\n[branch]\nalong = \"nu\"\nrange = [0.5, 2]\n", "5:13",
+       "a stiffness that is not above 0 conflicts with [branch] beside 'loose_mass'"},
       {carried + "[branch]\nalong = \"R\"\nrange = [0.5, 1]\n", "6:9", "along = 'R' conflicts with 'loose_mass'"},
       {carried + "[branch]\nalong = \"loose_mass\"\nrange = [0, 1]\n", "7:9", "range of 'loose_mass' reaches 0"},
       {carried + "[branch]\nalong = \"nu\"\nrange = [0.5, 2]\nacross = \"f\"\ncurve = \"fold\"\n", "8:1",
@@ -57,7 +75,7 @@ TEST(LooseMass, is_refused_by_what_does_not_know_it) {
 TEST(LooseMass, is_read_in_both_sections) {
   const Config scene = parse_config(carried + "loose_load = -0.5\nloose_R = 0.5\nloose_x0 = 1\nloose_v0 = 2\n", "a");
   const LooseMass& loose = problem_at(scene.sweep, 0).loose;
-  EXPECT_EQ(loose, (LooseMass{0.1, -2, 2, 0.5, -0.5, 1, 2}));
+  EXPECT_EQ(loose, (LooseMass{0.1, -2, 2, 0.5, 0.5, -0.5, 1, 2}));
   const Config machine = parse_config(
       "[machine]\nmass = 0.5\nstiffness = 32\nforce = 1\nfrequency = 2\nloose_mass = \"50 g\"\nloose_lower = \"-3 "
       "mm\"\n"
@@ -77,6 +95,8 @@ TEST(LooseMass, is_in_the_complete_text_only_if_there_is_one) {
   EXPECT_NE(config.text.find("loose_gap = 2.0\nloose_R = 1.0\nloose_load = 0.0\nloose_x0 = 0.0\nloose_v0 = 0.0\n"),
             std::string::npos);
   EXPECT_EQ(parse_config(config.text, "b").text, config.text);
+  const std::string beside = parse_config(carried + "stop_upper = 1\nfriction = 0.1\n", "a").text;
+  EXPECT_EQ(parse_config(beside, "b").text, beside);
   EXPECT_EQ(parse_config("[scene]\nxs = 1\n", "a").text.find("loose"), std::string::npos);
 }
 

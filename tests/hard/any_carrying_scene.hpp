@@ -75,7 +75,7 @@ inline void make_special(support::Random& random, Scene& scene) {
   oscillator.stiffness = 1;
   loose.ratio = random.logarithmic(1e-4, 3);
   draw_walls(random, loose);
-  loose.restitution = any_restitution(random);
+  loose.restitution_lower = loose.restitution_upper = any_restitution(random);
   draw_loose_start(random, loose);
   const bool has_both = std::isfinite(loose.lower) && std::isfinite(loose.upper);
   if (random.happens(0.4)) loose.load = random.uniform(-1.5, 1.5);
@@ -100,7 +100,7 @@ inline void make_special(support::Random& random, Scene& scene) {
           .loose_mass = loose.ratio,
           .lower = loose.lower,
           .upper = loose.upper,
-          .restitution = loose.restitution,
+          .restitution = loose.restitution_lower,
           .loose_load = loose.load,
           .x = start.displacement,
           .v = start.velocity,

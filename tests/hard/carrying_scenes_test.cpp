@@ -127,7 +127,7 @@ class Reference {
         decided(events.size()),
         growth(events.size(), 0.0),
         load(any.scene.oscillator.load),
-        restitution(any.scene.loose.restitution) {
+        restitution(any.scene.loose.restitution_lower) {
     const CarryScene scene = as_carry_scene(any.scene);
     const auto simulated = [&](const CarryScene& one, double rounding) {
       return carry_events(one, any.duration, most_events, rounding * epsilon<double>());
@@ -224,10 +224,8 @@ struct Told {
     end = state;
   }
   [[nodiscard]] State at_end(const Scene& scene, const SlideScales& scales) const {
-    const auto& [wall, place, speed, pressed] = end.loose;
-    if (wall == Side::none) return scaled(end.x, end.v, place - end.x, speed - end.v, scales);
-    const double z = (wall == Side::upper ? scene.loose.upper : scene.loose.lower) + place;
-    return scaled(end.x, end.v, z, speed, scales);
+    const auto [z, w] = motion::place_in_housing(end, scene.loose);
+    return scaled(end.x, end.v, z, w, scales);
   }
 
   motion::State<double> end{};

@@ -41,7 +41,8 @@ point::Problem problem_of(const CarryScene& scene) {
   problem.start = {scene.x - b * std::sin(scene.phase), scene.v - b * scene.frequency * std::cos(scene.phase),
                    scene.phase};
   problem.shaking.base = b;
-  problem.loose = {scene.loose_mass, scene.lower, scene.upper, scene.restitution, scene.loose_load, scene.z, scene.w};
+  problem.loose = {scene.loose_mass,  scene.lower,      scene.upper, scene.restitution,
+                   scene.restitution, scene.loose_load, scene.z,     scene.w};
   static_cast<Scene&>(problem) = in_shaken_frame(problem);
   return problem;
 }

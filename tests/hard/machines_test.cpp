@@ -1,5 +1,5 @@
-// Random scenes with a loose mass, and with rigid and soft stops and friction: the program against the simulator of
-// `machine.hpp`, which knows no kinds of scenes.
+// Random scenes with a loose mass, with rigid and soft stops and friction, and with all of them at once: the program
+// against the simulator of `machine.hpp`, which knows no kinds of scenes.
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hard/any_carrying_scene.hpp"
+#include "hard/any_machine.hpp"
 #include "hard/any_sliding_scene.hpp"
 #include "hard/as_machine.hpp"
 #include "hard/machine.hpp"
@@ -66,13 +67,11 @@ constexpr double slow = 1e-7;
 
 [[nodiscard]] Motion told(point::Problem problem) {
   problem.time.max_impacts = most_contacts;
-  problem.observe.full_log = true;
+  problem.observe.full_log = problem.observe.wall_log = true;
   point::ThreadScratch scratch;
   const point::PointResult result = run_point(problem, scratch);
   Motion motion;
-  const int part = has_loose_mass(problem.loose) ? 2 : 1;
-  for (const auto& impact : result.log)
-    motion.contacts.push_back({part * sign_of(impact.side), impact.time, impact.before});
+  for (const auto& impact : result.log) motion.contacts.push_back({impact.stop, impact.time, impact.before});
   motion.contacts = without_slow(std::move(motion.contacts));
   const auto& end = result.end;
   motion.end = {end.displacement, end.velocity, end.loose_place, end.loose_velocity};
@@ -154,6 +153,83 @@ TEST(Machines, with_a_loose_mass_are_told_as_taylor_series_tell_them) {
 }
 TEST(Machines, with_stops_and_friction_are_told_as_taylor_series_tell_them) {
   compare({"sliding", any_sliding_scene, 30}, true);
+}
+/// Works, losses and growth of the energy balance; losses on walls and rigid stops are those of the logged impacts.
+TEST(Machines, keep_their_energy_but_for_work_and_losses) {
+  const Kind kind{"combined", any_machine, 100};
+  Tally residual("energy residual", kind), walls("losses on walls", kind);
+  in_every_scene(kind, [&](const AnyScene& any) {
+    point::Problem problem = any.scene;
+    problem.time.max_impacts = most_contacts;
+    problem.observe.full_log = problem.observe.wall_log = problem.observe.energy = problem.observe.wall_energy = true;
+    point::ThreadScratch scratch;
+    const point::PointResult result = run_point(problem, scratch);
+    if (result.status != steady::Status::transient) return;
+    const double eps = problem.loose.ratio;
+    double lost = 0, size = 1e-3;
+    for (const auto& impact : result.log) {
+      size += impact.before * impact.before;
+      if (std::abs(impact.stop) == 2 && impact.time > 0)  // energies count from after an impact at the start
+        lost += eps / (1 + eps) * (impact.before - impact.after) * (impact.before + impact.after) / 2;
+    }
+    size += std::abs(result.work_in) + result.loss_damping + result.loss_friction;
+    constexpr double rounding = 1e-11;
+    residual.take(any, std::abs(result.energy_residual) / (rounding * size));
+    walls.take(any, std::abs(result.wall_loss_impact[0] + result.wall_loss_impact[1] - lost) / (rounding * size));
+  });
+  residual.conclude(0.9), walls.conclude(0.9);
+}
+
+/// A machine of `any_machine` that a force drives, and damping settles.
+[[nodiscard]] AnyScene any_driven_machine(std::uint64_t index) {
+  support::Random random(20703, index);
+  AnyScene any = any_machine(index);
+  Oscillator& o = any.scene.oscillator;
+  if (o.forcing == 0) o.forcing = 1;
+  o.damping = std::max(o.damping, random.uniform(0.02, 0.3));
+  any.scene.time.mode = steady::Mode::steady, any.scene.time.max_periods = 500;
+  return any;
+}
+
+/// The reference brings steady motion back to where it is after its period, with the contacts of its log unless those
+/// become ever slower.
+TEST(Machines, in_steady_motion_come_back) {
+  const Kind kind{"driven", any_driven_machine, 40};
+  Tally back("the state after a period", kind), same("the contacts of a period", kind);
+  std::uint64_t periodic = 0;
+  in_every_scene(kind, [&](const AnyScene& any) {
+    AnyScene there = any;
+    there.scene.observe.full_log = there.scene.observe.wall_log = there.scene.observe.period = true;
+    point::ThreadScratch scratch;
+    const point::PointResult result = run_point(there.scene, scratch);
+    if (result.status != steady::Status::periodic || !(result.period_ratio > 0)) return;
+    ++periodic;
+    there.duration = static_cast<double>(result.period_ratio) * period_of(there.scene.oscillator);
+    there.scene.start.displacement = result.end.displacement, there.scene.start.velocity = result.end.velocity;
+    there.scene.loose.place = result.end.loose_place, there.scene.loose.velocity = result.end.loose_velocity;
+    constexpr double roundings = 1e5, instant = 1e-6;  // as far as the tolerance of the repeat
+    const Motion round = simulated(as_machine(there.scene), there.duration);
+    const State begin{result.end.displacement, result.end.velocity, result.end.loose_place, result.end.loose_velocity};
+    double growth = 0, size = 1e-3;
+    for (std::uint64_t way = 0; way < 3; ++way) {
+      const Motion other = simulated(moved(there, way, roundings), there.duration);
+      if (!other.is_complete || !are_alike(other, round, instant)) return;
+      raise(growth, distance(other.end, round.end));
+    }
+    for (const double part : begin) size = std::max(size, std::abs(part));
+    if (!round.is_complete || growth > 1e-6) return;
+    back.take(any, distance(round.end, begin) / (growth + 1e-10 * size));
+    Motion log;
+    for (const auto& impact : result.log) log.contacts.push_back({impact.stop, impact.time, impact.before});
+    const bool chatters = without_slow(log.contacts).size() < log.contacts.size();
+    if (!chatters) same.take(any, are_alike(log, round, instant) ? 0 : std::numeric_limits<double>::infinity());
+  });
+  back.conclude(0.1), same.conclude(0.1);
+  std::cout << periodic << " of the motions are periodic\n";
+}
+
+TEST(Machines, with_a_loose_mass_beside_stops_and_friction_are_told_as_taylor_series_tell_them) {
+  compare({"combined", any_machine, 15}, true);
 }
 
 }  // namespace

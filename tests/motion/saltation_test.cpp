@@ -158,7 +158,12 @@ TEST_F(Saltation, OfAnImpactOnAWallIsTheOneFormula) {  // eq. 73
     const double eps = any.uniform(0.01, 2), load = any.uniform(-1, 1), y = any.uniform(-2, 2), w = y - at.v;
     const double kick = eps / (1 + eps) * (1 + at.R), back = kick / eps;
     const double v_after = at.v + kick * w, y_after = y - back * w;
-    LooseTangent tangent(at.oscillator(), {.ratio = eps, .lower = -1, .upper = 1, .restitution = at.R, .load = load});
+    LooseTangent tangent(Scene{.loose = {.ratio = eps,
+                                         .lower = -1,
+                                         .upper = 1,
+                                         .restitution_lower = at.R,
+                                         .restitution_upper = at.R,
+                                         .load = load}});
     Event strike{.kind = Kind::strike, .before = w, .after = -at.R * w};
     strike.main = {at.x, at.v, v_after};
     const double a = at.a(at.v, at.friction), a_after = at.a(v_after, at.friction);

@@ -96,7 +96,7 @@ TEST(Word, of_simulated_motion_is_that_of_its_impacts) {
     const point::PointResult r = result_of(scene);
     ASSERT_EQ(r.status, steady::Status::periodic) << nu;
     std::string letters;
-    for (const LoggedImpact& impact : r.log) letters += impact.side == Side::lower ? 'L' : 'U';
+    for (const LoggedImpact& impact : r.log) letters += impact.stop < 0 ? 'L' : 'U';
     EXPECT_EQ(r.impact_word, word(letters)) << nu;
     EXPECT_GE(letters.size(), 2u);
   }
@@ -113,7 +113,7 @@ TEST(Word, of_chatter_is_the_same_however_its_impacts_are_taken) {
     EXPECT_EQ(r.impact_word, "L*U*") << i;
     EXPECT_EQ(r.regime, "inf/1");
     EXPECT_EQ(r.symmetric, 1.0);
-    cuts += r.log.front().side == r.log.back().side;
+    cuts += r.log.front().stop == r.log.back().stop;
   }
   EXPECT_GT(cuts, 5);  // periods that begin between impacts on one stop
   point::Problem scene = paper_scene(0.5, 0.3);

@@ -89,7 +89,12 @@ TEST(CostliestPoint, of_a_loose_mass_on_a_wall_without_loss_takes_the_impacts_th
       for (const double sign : {1.0, -1.0}) {
         point::Problem scene = transient({h, 0.01, 1.3, 0.0}, 1.0, 0.0);
         scene.stops = {}, scene.time.duration = 40;
-        scene.loose = {.ratio = eps, .lower = -0.1, .upper = 0.1, .restitution = 1, .load = -0.5 * sign};
+        scene.loose = {.ratio = eps,
+                       .lower = -0.1,
+                       .upper = 0.1,
+                       .restitution_lower = 1,
+                       .restitution_upper = 1,
+                       .load = -0.5 * sign};
         (sign > 0 ? scene.loose.upper : scene.loose.lower) = sign * HUGE_VAL;
         EXPECT_NEAR(std::log(impacts_without_loss(scene) / run_point(scene, scratch).impacts), 0, std::log(2.0))
             << eps << ' ' << h;
@@ -99,9 +104,10 @@ TEST(CostliestPoint, of_a_loose_mass_on_a_wall_without_loss_takes_the_impacts_th
         EXPECT_TRUE(warns(scene)) << eps << ' ' << h;
         const std::string warning = *warning_of_costliest_point(sweep::sweep_of(scene, {}));
         EXPECT_NE(warning.find("with loose_R = 1 nothing ends its bouncing"), std::string::npos) << warning;
-        scene.loose.restitution = 0.99;
+        scene.loose.restitution_lower = scene.loose.restitution_upper = 0.99;
         EXPECT_FALSE(warns(scene));
-        scene.loose.restitution = 1, scene.oscillator.forcing = 3;  // which throws it off
+        scene.loose.restitution_lower = scene.loose.restitution_upper = 1,
+        scene.oscillator.forcing = 3;  // which throws it off
         EXPECT_FALSE(warns(scene));
       }
 }

@@ -107,7 +107,7 @@ TEST(Reasons, the_oscillator_names_the_terms_of_its_arcs) {
 TEST(Reasons, a_loose_mass_is_named_in_place_of_stops_and_whether_it_can_strike) {
   point::Problem scene;
   scene.oscillator = {.damping = 0.05, .forcing = 0.02};
-  scene.loose = {.ratio = 0.02, .lower = -0.4, .upper = 0.4, .restitution = 0.8};
+  scene.loose = {.ratio = 0.02, .lower = -0.4, .upper = 0.4, .restitution_lower = 0.8, .restitution_upper = 0.8};
   EXPECT_THROW((void)reason(scene, "upper stop"), std::out_of_range);
   EXPECT_THROW((void)reason(figure(3, 1), "loose mass"), std::out_of_range);
   const std::string why = "loose_mass = 0.02, walls at -0.4 and 0.4, R = 0.8";

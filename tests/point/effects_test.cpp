@@ -42,7 +42,7 @@ double stretch_of(const Problem& scene, const PointResult& result) {
   double stretch = 1, last = 0, worst = 1;
   for (const observables::LoggedImpact& impact : result.log) {
     const double speed = std::abs(impact.before);
-    const double position = impact.side == Side::upper ? scene.stops.upper : scene.stops.lower;
+    const double position = impact.stop > 0 ? scene.stops.upper : scene.stops.lower;
     const double shear = 2 * (force + std::abs(position) + 2 * o.damping * speed) / speed;
     worst = std::max(worst, stretch * (1 + shear + size / (speed * scene.time.duration)));
     const double flight = std::min(1.0, impact.time - last), growth = 1 + std::sqrt(shear * flight);
@@ -59,7 +59,7 @@ double difference(const Problem& scene, const PointResult& one, const PointResul
   double worst = 0;
   for (std::size_t i = 0; i < one.log.size(); ++i) {
     const observables::LoggedImpact &a = one.log[i], &b = other.log[i];
-    if (a.side != b.side) return infinity;
+    if (a.stop != b.stop) return infinity;
     worst = std::max({worst, std::abs(a.time - b.time) / scene.time.duration, std::abs(a.before - b.before) / size,
                       std::abs(a.after - b.after) / size});
   }
@@ -178,7 +178,7 @@ TEST(Effects, one_stop_that_is_hit_can_throw_the_mass_at_the_other) {
   for (const bool all : {true, false}) {
     const PointResult result = result_of(scene, all);
     EXPECT_GT(std::count_if(result.log.begin(), result.log.end(),
-                            [](const observables::LoggedImpact& i) { return i.side == Side::lower; }),
+                            [](const observables::LoggedImpact& i) { return i.stop < 0; }),
               5)
         << all;
   }

@@ -87,7 +87,7 @@ TEST(Steady, motion_of_the_figures_without_a_period_begins_with_the_same_twenty_
       const std::size_t count = std::min<std::size_t>(20, all.log.size());
       ASSERT_GE(found.log.size(), count);
       for (std::size_t k = 0; k < count; ++k) {
-        EXPECT_EQ(found.log[k].side, all.log[k].side);
+        EXPECT_EQ(found.log[k].stop, all.log[k].stop);
         EXPECT_NEAR(found.log[k].time / all.log[k].time, 1, 1e-12);
         EXPECT_NEAR(found.log[k].before / all.log[k].before, 1, 1e-12);
       }

@@ -40,7 +40,7 @@ TEST(BeyondContact, keeps_all_other_states) {
 // Both momenta change by the same impulse: x' + eps y' is kept, with y' = x' + z'.
 TEST(BeyondContact, takes_both_masses_through_an_impact_on_a_wall) {
   Scene scene;
-  scene.loose = {.ratio = 0.25, .lower = -0.5, .upper = 0.5, .restitution = 0.6};
+  scene.loose = {.ratio = 0.25, .lower = -0.5, .upper = 0.5, .restitution_lower = 0.6, .restitution_upper = 0.6};
   const SectionNumbers after = BeyondContact(scene, period)({0.1, 0.3, 0.5 - 2 * h, 2.0});
   EXPECT_DOUBLE_EQ(after.w, -1.2);
   EXPECT_NEAR(after.v + 0.25 * (after.v + after.w), 0.3 + 0.25 * (0.3 + 2.0), 1e-15);

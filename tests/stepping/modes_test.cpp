@@ -27,6 +27,22 @@ struct Lines {
   }
 };
 
+/// The rows of a table of the guide, by the name of its first column.
+std::vector<std::string> rows_of(const std::string& table) {
+  std::ifstream guide(std::string(CLATTER_SOURCE) + "/src/stepping/README.md");
+  std::vector<std::string> lines;
+  bool is_there = false;
+  for (std::string line; std::getline(guide, line);) {
+    if (line.starts_with("| " + table + " |"))
+      is_there = true, std::getline(guide, line);
+    else if (is_there && !line.starts_with('|'))
+      break;
+    else if (is_there)
+      lines.push_back(line);
+  }
+  return lines;
+}
+
 /// The names of the modes that a set of effects calls for.
 template <class... Modes>
 std::vector<std::string> names(std::tuple<std::type_identity<Modes>...>) {
@@ -38,18 +54,8 @@ std::vector<std::string> called_for() {
 }
 
 TEST(Modes, ReadAsTheTableOfTheGuide) {
-  std::ifstream guide(std::string(CLATTER_SOURCE) + "/src/stepping/README.md");
-  std::vector<std::string> lines;
-  bool in_table = false;
-  for (std::string line; std::getline(guide, line);) {
-    if (line == "|---|---|---|---|---|")
-      in_table = true;
-    else if (in_table && !line.starts_with('|'))
-      break;
-    else if (in_table)
-      lines.push_back(line);
-  }
-  EXPECT_EQ(lines, (Table<Lines, Exact<double, Effects{}>>::all()));
+  EXPECT_EQ(rows_of("mode"), (Table<Lines, Exact<double, Effects{}>>::all()));
+  EXPECT_EQ(rows_of("loose mass"), (std::vector{Lines<>::line(flying_row), Lines<>::line(pressed_row)}));
 }
 
 TEST(Modes, AreThoseThatTheEffectsCallFor) {
@@ -59,7 +65,9 @@ TEST(Modes, AreThoseThatTheEffectsCallFor) {
   constexpr Effects elastic{.lower = true, .upper = true};
   EXPECT_EQ(called_for<elastic>(), (Names{"between stops"}));
   constexpr Effects loose{.loose = true};
-  EXPECT_EQ(called_for<loose>(), (Names{"pressed", "in a housing"}));
+  EXPECT_EQ(called_for<loose>(), (Names{"between stops"}));
+  constexpr Effects loose_between_stops{.lower = true, .upper = true, .rest = true, .loose = true};
+  EXPECT_EQ(called_for<loose_between_stops>(), (Names{"at rest", "between stops"}));
   constexpr Effects soft{.lower = true, .upper = true, .soft = true};
   EXPECT_EQ(called_for<soft>(), (Names{"beyond a stop", "in contact", "between stops"}));
 }

@@ -91,9 +91,10 @@ double conditioning(const point::Problem& scene, const accuracy::RunRecord& refe
     const double more_friction = 1 + (signs & 1 ? 1 : -1) * epsilon<double>();
     moved.friction.kinetic *= more_friction, moved.friction.static_level *= more_friction;
     LooseMass& loose = moved.loose;
-    for (double* value : {&loose.ratio, &loose.restitution, &loose.load, &loose.velocity})
+    for (double* value :
+         {&loose.ratio, &loose.restitution_lower, &loose.restitution_upper, &loose.load, &loose.velocity})
       *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();
-    loose.restitution = std::min(loose.restitution, 1.0);
+    for (double* R : {&loose.restitution_lower, &loose.restitution_upper}) *R = std::min(*R, 1.0);
     for (double* wall : {&loose.lower, &loose.upper}) {
       const bool on_it = loose.place == *wall;
       *wall *= 1 + epsilon<double>();
@@ -130,8 +131,15 @@ std::string configuration_of(const point::Problem& s, double duration) {
   }
   if (has_friction(s.friction))
     out << "\nfriction = " << s.friction.kinetic << "\nfriction_static = " << s.friction.static_level;
-  out << "\n[time]\nmode = \"transient\"\nduration = " << duration << "\nmax_impacts = " << s.time.max_impacts
-      << "\n[observe]\nimpact_log = true\n";
+  if (const LooseMass& loose = s.loose; has_loose_mass(loose))
+    out << "\nloose_mass = " << loose.ratio << "\nloose_lower = " << loose.lower << "\nloose_upper = " << loose.upper
+        << "\nloose_R_lower = " << loose.restitution_lower << "\nloose_R_upper = " << loose.restitution_upper
+        << "\nloose_load = " << loose.load << "\nloose_x0 = " << loose.place << "\nloose_v0 = " << loose.velocity;
+  if (s.time.mode == steady::Mode::steady)
+    out << "\n[time]\nmax_periods = " << s.time.max_periods;
+  else
+    out << "\n[time]\nmode = \"transient\"\nduration = " << duration;
+  out << "\nmax_impacts = " << s.time.max_impacts << "\n[observe]\nimpact_log = true\n";
   return out.str();
 }
 

@@ -21,7 +21,7 @@ namespace clatter::support {
 [[nodiscard]] inline point::Problem loose_scene(double eps, double h, double f, double nu, double gap, double R) {
   point::Problem scene;
   scene.oscillator = {.damping = h, .forcing = f, .frequency = nu};
-  scene.loose = {.ratio = eps, .lower = -gap, .upper = gap, .restitution = R};
+  scene.loose = {.ratio = eps, .lower = -gap, .upper = gap, .restitution_lower = R, .restitution_upper = R};
   return scene;
 }
 

@@ -197,8 +197,11 @@ std::string sentence(Rows rows) {
   std::string text =
       std::string(in_lanes ? "exact in lanes (" + std::string(name_of(exact->trial.arch)) + ')' : "exact") + ": " +
       formatted("%.0e", accuracy::error_of(*exact)) + " at " + time_text(exact->ns_per_period) + " a period";
+  const auto was_tried = [&](const Family& family) {
+    return std::ranges::any_of(rows, [&](const WorkPrecision& row) { return row.trial.method == family.method; });
+  };
   for (const Family& family : families)
-    if (!family.column.empty()) text += "; " + comparison(rows, family, *exact);
+    if (!family.column.empty() && was_tried(family)) text += "; " + comparison(rows, family, *exact);
   return text + '.';
 }
 

@@ -139,7 +139,8 @@ std::vector<KeyAndNumber> computed_scene(const point::Problem& problem) {
     scene.insert(scene.end(), {{"loose_mass", loose.ratio},
                                {"loose_lower", loose.lower},
                                {"loose_upper", loose.upper},
-                               {"loose_R", loose.restitution},
+                               {"loose_R_lower", loose.restitution_lower},
+                               {"loose_R_upper", loose.restitution_upper},
                                {"loose_load", loose.load},
                                {"loose_x0", loose.place},
                                {"loose_v0", loose.velocity}});

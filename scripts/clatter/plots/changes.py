@@ -114,4 +114,6 @@ def has_mirror(output):
         alike &= (one == other) | np.isnan(one) & np.isnan(other)
     if output.has_loose_mass:
         alike &= (output.parameter("loose_load", 0.0) == 0) & np.isfinite(sum(output.walls()))
+        lower, upper = (output.parameter(f"loose_R_{side}", 1.0) for side in ("lower", "upper"))
+        alike &= lower == upper
     return alike

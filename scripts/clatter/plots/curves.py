@@ -209,9 +209,7 @@ def label_of(output, group):
     names, first = list(dict.fromkeys(result for result, _, _ in group)), group[0][0]
     shared = next((words for words in SHARED if len(names) > 1 and set(names) <= words), None)
     if shared:
-        words = (
-            SHARED[shared].replace("$x$", "$z$") if first == "v_before" and output.has_loose_mass else SHARED[shared]
-        )
+        words = SHARED[shared].replace("$x$", "$z$") if first == "v_before" and output.is_of_walls else SHARED[shared]
         words = words.replace(IN_TIME, PER_PERIOD) if PER_PERIOD in output[first].long_name else words
         words = with_unit(output, words, *names)
         return in_frame(output, first, words) if first[:2] in ("x_", "v_", "y_") and "impact" not in words else words
@@ -255,7 +253,7 @@ def scalar_parts(output, name):
         return (
             [(plain(variable.long_name), plain(text if len(text) <= LONGEST else f"{text[:LONGEST]}…"))] if text else []
         )
-    values = zip(component_names(output, variable), np.atleast_1d(shown_values(output, name)))
+    values = zip(component_names(output, name), np.atleast_1d(shown_values(output, name)))
     return [
         (result_in_words(output, name) + part, amount(output, name, value))
         for part, value in values
@@ -263,11 +261,12 @@ def scalar_parts(output, name):
     ]
 
 
-def component_names(output, variable):
+def component_names(output, result):
     """The name of each value of a result of a single point, None if it is of a stop that isn't there."""
+    variable = output[result]
     if variable.dims == ("stop",):
-        names = ((side, f", {output.stop_name(side)}") for side in output.values("stop"))
-        return [words if output.has_stop(side) else None for side, words in names]
+        names = ((side, f", {output.stop_name(side, result)}") for side in output.values("stop"))
+        return [words if output.has_stop(side, result) else None for side, words in names]
     if variable.dims == ("multiplier",):
         numbers = output.values("multiplier")
         return [f", {modulus_name(int(number), len(numbers))}" for number in numbers]

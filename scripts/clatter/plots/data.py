@@ -21,6 +21,7 @@ SOFT_STOPS = ("stop_stiffness_lower", "stop_stiffness_upper")
 SI_WORDS = {"tau": "t", "xs": "gap"}  # of long names, in [machine]
 SHAKEN = ("stop_amplitude", "base_amplitude")
 LOGGED = ("impact",)  # dimensions of the log
+WALL = 2  # |impact_stop| of a wall of a loose mass whose main mass has stops or friction of its own
 STARTS = ("x0", "v0", "phase", "start_period", "loose_x0", "loose_v0")  # keys that say where motion begins
 PHASE = "impact_phase"  # of the log, the result that has a diagram of its own
 
@@ -273,8 +274,14 @@ class Output:
 
     @property
     def has_loose_mass(self):
-        """Whether the main mass carries a loose one, on whose walls the impacts are."""
+        """Whether the main mass carries a loose one."""
         return "loose_mass" in self.scene or self.swept("loose_mass")
+
+    @property
+    def is_of_walls(self):
+        """Whether impacts are those of a loose mass, whose main mass has neither stops nor friction of its own."""
+        levels = [self.parameter(key, 0.0) for key in ("friction", "friction_static")]
+        return self.has_loose_mass and not (np.isfinite(self.stops()).any() or np.nan_to_num(levels).any())
 
     def walls(self):
         """Lower and upper wall of the loose mass in its housing at every point; infinite if there is none."""
@@ -283,14 +290,21 @@ class Output:
             return -gap, gap
         return self.parameter("loose_lower", -np.inf), self.parameter("loose_upper", np.inf)
 
-    def has_stop(self, side):
-        """Whether any point has a stop, or a wall of a loose mass, on this side: -1 lower, 1 upper."""
-        places = self.walls() if self.has_loose_mass else self.stops()
+    def has_stop(self, side, result=""):
+        """Whether any point has a stop, or a wall, of which a result is, on this side: -1 lower, 1 upper."""
+        places = self.walls() if self.is_of_walls or result.startswith("wall_") else self.stops()
         return bool(np.isfinite(places[0 if side < 0 else 1]).any())
 
-    def stop_name(self, side):
-        """The stop, or the wall of a loose mass, on a side: -1 lower, 1 upper."""
-        return f"{'lower' if side < 0 else 'upper'} {'wall' if self.has_loose_mass else 'stop'}"
+    def stop_name(self, side, result=""):
+        """The stop, or wall, on a side, of which a result is: -1, -2 lower, 1, 2 upper; 2 is a wall beside stops."""
+        is_wall = self.is_of_walls or abs(side) == WALL or result.startswith("wall_")
+        return f"{'lower' if side < 0 else 'upper'} {'wall' if is_wall else 'stop'}"
+
+    def wall_impacts(self, index):
+        """The same as `impacts` of the loose mass alone."""
+        impacts = self.impacts(index)
+        on_wall = np.full(impacts[1].shape, True) if self.is_of_walls else np.abs(impacts[1]) == WALL
+        return tuple(np.asarray(part)[on_wall] for part in impacts)
 
     def impacts(self, index):
         """Times, stops, velocities before and after of one point's observed impacts."""

@@ -258,7 +258,7 @@ def components(output, group):
         elif len(dims) == 1 and dims[0] in output:
             known = np.isfinite(shown_values(output, name)).reshape(-1, len(output.values(dims[0]))).any(axis=0)
             if dims[0] == "stop":
-                known &= [output.has_stop(side) for side in output.values("stop")]
+                known &= [output.has_stop(side, name) for side in output.values("stop")]
             prefix = f"{symbol(output, name)} " if len(group) > 1 else ""
             parts += [(name, part, prefix + component_name(output, name, part)) for part in np.flatnonzero(known)]
     return parts
@@ -271,7 +271,7 @@ def component_name(output, name, part):
     dimension = output[name].dims[-1]
     value = output.values(dimension)[part]
     if dimension == "stop":
-        return output.stop_name(value)
+        return output.stop_name(value, name)
     if dimension == "multiplier":
         return modulus_name(int(value), len(output.values(dimension)))
     return f"${'k' if dimension == 'harmonic' else dimension} = {number(float(value))}$"

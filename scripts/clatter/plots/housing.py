@@ -60,7 +60,7 @@ def between_walls(output, index):
     tau, _, _, z, w, width = records(output, index)
     if "impact_count" not in output:
         return z, w, width
-    times, sides, before, after = (np.asarray(part) for part in output.impacts(index))
+    times, sides, before, after = output.wall_impacts(index)
     shown = times >= tau[0]
     times, sides, before, after = times[shown], sides[shown], before[shown], after[shown]
     position = np.where(sides < 0, *(wall[index] for wall in output.walls()))

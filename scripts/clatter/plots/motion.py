@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib import transforms
 
-from .data import lacks_period
+from .data import WALL, lacks_period
 from .names import equation, label
 from .empty import say_empty
 from .style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, legend_above
@@ -157,7 +157,7 @@ def impact_log(output, index, axes, period=None):
         axes.axhline(0.0, color=STOP, lw=0.7)
     else:
         say_empty(axes, "no impacts")
-    for side, marker, color in ((-1, "v", BLUE), (1, "^", VERMILION)):
+    for side, marker, color in ((-1, "v", BLUE), (1, "^", VERMILION), (-WALL, "v", STOP), (WALL, "^", STOP)):
         hit = sides == side
         if hit.any():
             axes.vlines(times[hit], 0.0, before[hit], color=color, lw=1.0)

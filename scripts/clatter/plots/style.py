@@ -213,7 +213,7 @@ def constants(output, title, others=()):
     if not any(output.swept(key) or np.isfinite(float(output.scene.get(key, np.inf))) for key in stiffnesses):
         keys = [key for key in keys if not key.startswith("stop_damping")]  # of rigid stops
     absent = {key for key, side in (("R_lower", -1), ("R_upper", 1)) if not output.has_stop(side)}
-    absent |= {"R"} if output.has_loose_mass else set()
+    absent |= {"R"} if output.is_of_walls else set()
     values = {key: float(output.scene[key]) for key in keys if key not in absent}
     return [
         equation(output, key, value)

@@ -75,7 +75,7 @@ def housing_motion(output, index):
     """Time, displacements of the main and the loose mass, place and velocity of the loose one in the housing."""
     tau, x, z, w = (output.values(name)[index] for name in ("tau", "x", "z", "w"))
     if "impact_count" in output:
-        times, sides, before, after = output.impacts(index)
+        times, sides, before, after = output.wall_impacts(index)
         wall = np.where(sides < 0, *(wall[index] for wall in output.walls()))
         place, both = np.repeat(np.searchsorted(tau, times), 2), np.stack([before, after], axis=1).ravel()
         x = np.insert(x, place, np.repeat(np.interp(times, tau, x), 2))

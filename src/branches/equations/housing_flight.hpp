@@ -47,7 +47,7 @@ class HousingFlights {
   [[nodiscard]] const motion::ArcConstants<Number, E>& constants() const { return constants_; }
   [[nodiscard]] const SceneNumbers<Number>& parameters() const { return p_; }
   [[nodiscard]] const Number& wall(Side side) const { return side == Side::upper ? p_.loose.upper : p_.loose.lower; }
-  [[nodiscard]] motion::WallRule<Number> rule() const { return {p_.loose.ratio, {p_.loose.restitution}}; }
+  [[nodiscard]] motion::WallRule<Number> rule() const { return motion::WallRule<Number>(p_.loose); }
 
   /// The motion of the main mass alone from a state on.
   [[nodiscard]] motion::Arc<Number, E> main_from(const Number& phase, const Number& place, const Number& v) const {
@@ -58,7 +58,7 @@ class HousingFlights {
   }
   /// The flight that begins with an impact.
   [[nodiscard]] Arc after(const WallImpact<Number>& impact) const {
-    const Number v = rule().main_after(impact.v, impact.w), w = rule().law.after(impact.w);
+    const Number v = rule().main_after(impact.v, impact.w), w = rule().law(impact.wall).after(impact.w);
     return {main_from(impact.phase, impact.place, v), {wall(impact.wall), Number(0), w, Number(w + v)}, p_.loose.load};
   }
   /// A flight `advance` of the phase after its beginning, beside a wall: z less the place of that, z', and place and

@@ -124,8 +124,9 @@ HousingCharacteristic housing_characteristic(const FollowedScene& scene, const O
   HousingCharacteristic found;
   for (const HousingLink& link : links)
     for (std::size_t i = 0; i < of_wall_impact; ++i) found.leading *= link.by_end[i][i];
-  found.determinant = std::exp(-2 * p.oscillator.damping * orbit.advance() / p.oscillator.frequency) *
-                      std::pow(p.loose.restitution, 2 * static_cast<double>(orbit.size()));
+  found.determinant = std::exp(-2 * p.oscillator.damping * orbit.advance() / p.oscillator.frequency);
+  for (const OrbitEvent& impact : orbit.events)
+    found.determinant *= std::pow(motion::WallRule<double>(p.loose).law(impact.side).R, 2);
   const double sum = (at_minus_1 - at_1) / 2, difference = at_i.imag();  // a + c, a - c
   found.a = (sum + difference) / 2, found.c = (sum - difference) / 2;
   found.b = (at_1 + at_minus_1) / 2 - found.leading * (1 + found.determinant);

@@ -24,8 +24,7 @@ Moving motion_at(const FollowedScene& scene, const Orbit& orbit, const SceneNumb
 /// The change of the velocity of the mass, or of the main mass, in an impact.
 Along jump_of_velocity(const SceneNumbers<Along>& p, Side side, const Along& before) {
   if (p.loose.ratio == 0) return p.law(side).jump(before);
-  const motion::WallRule<Along> rule{p.loose.ratio, {p.loose.restitution}};
-  return rule.main_after(Along(0), before);
+  return motion::WallRule<Along>(p.loose).main_after(Along(0), before);
 }
 
 }  // namespace

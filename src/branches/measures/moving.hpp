@@ -46,7 +46,7 @@ struct Moving {
 /// Energy lost in an impact, per unit mass, or on a wall per unit of the main mass (eq. 70).
 template <class Number>
 [[nodiscard]] Number lost_in_impact(const SceneNumbers<Number>& p, Side side, const Number& before, bool rests) {
-  const Restitution<Number> law = p.loose.ratio == 0 ? p.law(side) : Restitution<Number>{p.loose.restitution};
+  const Restitution<Number> law = p.loose.ratio == 0 ? p.law(side) : motion::WallRule<Number>(p.loose).law(side);
   const Number lost = rests ? Number(before * before / 2) : law.lost(before);
   return p.loose.ratio == 0 ? lost : Number(p.loose.ratio / (1 + p.loose.ratio) * lost);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,7 +20,7 @@ struct LoggedImpact {
   double after = 0.0;          ///< velocity after it, too
   double phase = no_value;     ///< forcing phase theta, rad, in [0, 2 pi); NaN if nothing drives the mass
   double absolute = no_value;  ///< velocity before it as seen from the ground
-  Side side = Side::none;
+  std::int8_t stop = 0;        ///< -1: lower, +1: upper; -2 and +2: the walls of a loose mass beside stops
 };
 
 /// A variable of the file over all impacts, and the number of an impact that it holds.
@@ -51,6 +52,7 @@ inline constexpr std::array log_columns_of_shaken{
 struct ImpactLog {
   struct Settings {
     bool impact_log = false;
+    bool wall_log = false;  ///< with it: walls of a loose mass are told from stops
     bool full_log = false;  ///< with it: every rest and completed chatter, and an impact at the beginning itself
   };
   struct Values {

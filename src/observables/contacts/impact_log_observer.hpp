@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -16,6 +17,7 @@ class ImpactLog::Observer {
   Observer() = default;
   Observer(const Settings& settings, const ObservedSpan& span)
       : full_(settings.full_log),
+        tells_walls_(settings.wall_log),
         drive_(span.scene.oscillator.forcing != 0 ? Drive::force
                : is_shaken(span.scene.shaking)    ? Drive::shaking
                                                   : Drive::none),
@@ -52,15 +54,17 @@ class ImpactLog::Observer {
   enum class Drive : std::uint8_t { none, force, shaking };
 
   void end_contact(const motion::Event& separation) {
-    if (!values_.log.empty() && values_.log.back().side == separation.side && std::isnan(values_.log.back().after))
-      values_.log.back().after = separation.after;
+    const auto touched =
+        std::ranges::find_if(values_.log.rbegin(), values_.log.rend(),
+                             [&](const LoggedImpact& impact) { return impact.stop == sign_of(separation.side); });
+    if (touched != values_.log.rend() && std::isnan(touched->after)) touched->after = separation.after;
   }
   void log(const motion::Event& contact, double after) {
     LoggedImpact logged{.time = contact.time,
                         .before = contact.before,
                         .after = after,
                         .absolute = contact.before,
-                        .side = contact.side};
+                        .stop = stop_of(contact)};
     if (drive_ != Drive::none) {
       const double since = drive_ == Drive::force ? contact.turns : frequency_ * contact.time / (2 * pi<double>());
       const double turns = part_of_turn(begin_ + since);
@@ -69,13 +73,17 @@ class ImpactLog::Observer {
     }
     values_.log.push_back(logged);
   }
+  [[nodiscard]] std::int8_t stop_of(const motion::Event& contact) const {
+    const bool is_wall = tells_walls_ && contact.kind == motion::Event::Kind::strike;
+    return static_cast<std::int8_t>((is_wall ? 2 : 1) * sign_of(contact.side));
+  }
   /// At a forcing phase, in turns.
   [[nodiscard]] double velocity_of_stops(double turns) const {
     const double amplitude = shaking_.stops + shaking_.base;
     return amplitude * frequency_ * sine_cosine_of_turns(turns + turns_of(shaking_.phase)).cosine;
   }
 
-  bool full_ = false;
+  bool full_ = false, tells_walls_ = false;
   Drive drive_ = Drive::none;
   Shaking shaking_{};
   double frequency_ = 0.0;  ///< nu

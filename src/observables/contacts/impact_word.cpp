@@ -13,9 +13,27 @@ namespace {
 using Contact = ImpactWord::Contact;
 
 /// The letters of a word in the order in which texts of them sort.
-enum class Letter : unsigned char { lower_ending_in_rest, lower, stick, upper_ending_in_rest, upper };
-constexpr std::array<std::string_view, 5> letter_texts{"L*", "L", "S", "U*", "U"};
+enum class Letter : unsigned char {
+  lower_ending_in_rest,
+  lower,
+  stick,
+  upper_ending_in_rest,
+  upper,
+  lower_wall_ending_in_press,
+  lower_wall,
+  upper_wall_ending_in_press,
+  upper_wall
+};
+constexpr std::array<std::string_view, 9> letter_texts{"L*", "L", "S", "U*", "U", "l*", "l", "u*", "u"};
 constexpr std::string_view cut = "…";
+
+Letter letter_of(const Contact& contact) {
+  const bool upper = contact.side == Side::upper;
+  if (contact.is_of_wall) return upper ? Letter::upper_wall : Letter::lower_wall;
+  return upper ? Letter::upper : Letter::lower;
+}
+/// It stands before that of an impact.
+Letter ending_in_rest(Letter impact) { return static_cast<Letter>(static_cast<unsigned char>(impact) - 1); }
 
 /// The letters of one period. They begin after a rest, if there is one, so that no series of impacts that ends in rest
 /// is cut in two.
@@ -25,15 +43,14 @@ std::vector<Letter> letters_of(std::vector<Contact> contacts) {
   std::rotate(contacts.begin(), last_rest == contacts.rend() ? contacts.begin() : last_rest.base(), contacts.end());
   std::vector<Letter> letters;
   for (const Contact& contact : contacts) {
-    const bool upper = contact.side == Side::upper;
-    const Letter impact = upper ? Letter::upper : Letter::lower;
+    const Letter impact = letter_of(contact), in_rest = ending_in_rest(impact);
     if (contact.side == Side::none) {
       letters.push_back(Letter::stick);
     } else if (contact.before != 0) {
       letters.push_back(impact);
     } else if (!letters.empty() && letters.back() == impact) {  // else a rest that goes on
       while (!letters.empty() && letters.back() == impact) letters.pop_back();
-      letters.push_back(upper ? Letter::upper_ending_in_rest : Letter::lower_ending_in_rest);
+      letters.push_back(in_rest);
     }
   }
   return letters;
@@ -61,9 +78,9 @@ std::size_t first_rotation(const std::vector<T>& items) {
 }  // namespace
 
 std::vector<Column<ImpactWord::Values>> ImpactWord::columns(const Settings& settings) {
-  const char* const letters =
-      settings.word_sticks ? "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest; S: stick"
-                           : "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest";
+  std::string letters = "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest";
+  if (settings.word_walls) letters += "; l, u: walls of the loose mass, *: until pressed";
+  if (settings.word_sticks) letters += "; S: stick";
   return {missing_if("no period is known", text("impact_word", letters, &Values::impact_word, longest + cut.size())),
           missing_if("no period is known, or there is no force",
                      text("regime", "impacts on the stop with more of them / forcing periods", &Values::regime, 40)),
@@ -75,7 +92,9 @@ std::string ImpactWord::word_of(const std::vector<Contact>& contacts, Side withi
   std::vector<Letter> letters = letters_of(contacts);
   if (letters.empty()) {
     const Side side = contacts.empty() ? within : contacts.front().side;
-    return std::string(side == Side::none ? no_contact : side == Side::upper ? "(U)" : "(L)");
+    if (side == Side::none) return std::string(no_contact);
+    const bool is_of_wall = !contacts.empty() && contacts.front().is_of_wall;
+    return '(' + std::string(letter_texts[static_cast<std::size_t>(letter_of({0.0, 0.0, side, is_of_wall}))]) + ')';
   }
   std::rotate(letters.begin(), letters.begin() + static_cast<std::ptrdiff_t>(first_rotation(letters)), letters.end());
   std::string word;
@@ -91,9 +110,10 @@ std::string ImpactWord::regime_of(const std::vector<Contact>& contacts, double p
   std::array<std::size_t, letter_texts.size()> counts{};
   for (const Letter letter : letters_of(contacts)) ++counts[static_cast<std::size_t>(letter)];
   const auto count = [&](Letter letter) { return counts[static_cast<std::size_t>(letter)]; };
-  const bool rests = count(Letter::lower_ending_in_rest) + count(Letter::upper_ending_in_rest) > 0;
-  const std::size_t most = std::max(count(Letter::lower), count(Letter::upper));
-  return (rests ? "inf" : std::to_string(most)) + '/' + std::to_string(std::llround(periods));
+  std::size_t most = 0, rests = 0;
+  for (const Letter impact : {Letter::lower, Letter::upper, Letter::lower_wall, Letter::upper_wall})
+    most = std::max(most, count(impact)), rests += count(ending_in_rest(impact));
+  return (rests > 0 ? "inf" : std::to_string(most)) + '/' + std::to_string(std::llround(periods));
 }
 
 /// The whole motion follows from the state after one impact: it is its own mirror image if the mirror image of that
@@ -116,7 +136,8 @@ bool ImpactWord::Observer::is_mirrored(const ObservedSpan& span, double x, doubl
   }
   return std::ranges::any_of(contacts_, [&](const Contact& other) {
     const double late = std::remainder(other.time - fastest->time - span.total / 2, span.total);
-    return other.side != fastest->side && std::abs(late) <= same * span.total &&
+    return other.side != fastest->side && other.is_of_wall == fastest->is_of_wall &&
+           std::abs(late) <= same * span.total &&
            std::abs(other.before + fastest->before) <= same * std::abs(fastest->before);
   });
 }

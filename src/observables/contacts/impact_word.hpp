@@ -17,6 +17,7 @@ struct ImpactWord {
   struct Settings {
     bool word = false;
     bool word_sticks = false;
+    bool word_walls = false;  ///< with it: walls of a loose mass are told from stops
   };
   struct Values {
     std::string impact_word{}, regime{};  ///< empty: no period; of the regime also no force
@@ -44,12 +45,14 @@ struct ImpactWord {
   /// An impact, or the instant from which on the mass rests on a stop.
   struct Contact {
     double time;
-    double before;  ///< velocity before the impact; 0: at rest
-    Side side;      ///< none: dry friction holds the mass
+    double before;            ///< velocity before the impact; 0: at rest
+    Side side;                ///< none: dry friction holds the mass
+    bool is_of_wall = false;  ///< of a loose mass, beside stops
   };
   /// The stops of the impacts of one period in order, from the rotation on that sorts first. Impacts that end in rest
   /// are one L* or U*: how many of them were taken says nothing about the motion. Motion without impacts stays on a
-  /// stop, (L) or (U), if the mass rests there or `within` is the soft stop that it is beyond; else it meets none.
+  /// stop, (L) or (U), if the mass rests there or `within` is the soft stop that it is beyond; else it meets none. The
+  /// walls of a loose mass beside stops are l and u.
   [[nodiscard]] static std::string word_of(const std::vector<Contact>& contacts, Side within = Side::none);
   /// "n/p": the larger number of impacts on one stop, "inf" if they end in rest, in p forcing periods.
   [[nodiscard]] static std::string regime_of(const std::vector<Contact>& contacts, double periods);

@@ -14,7 +14,10 @@ namespace clatter::observables {
 class ImpactWord::Observer {
  public:
   Observer(const Settings& settings, const ObservedSpan& span)
-      : periodic_(span.periodic), shows_sticks_(settings.word_sticks), half_(span.total / 2) {}
+      : periodic_(span.periodic),
+        shows_sticks_(settings.word_sticks),
+        tells_walls_(settings.word_walls),
+        half_(span.total / 2) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -24,13 +27,15 @@ class ImpactWord::Observer {
     const motion::Motion<double> m = arc.at(half_ - begin);
     halfway_ = {m.x, m.v};
   }
-  /// The touch of a soft stop has the letter of an impact, and the walls of a loose mass have the letters of stops.
+  /// The touch of a soft stop has the letter of an impact, and the walls of a loose mass have the letters of stops, or
+  /// small ones beside them.
   void event(const motion::Event& event) {
     using Kind = motion::Event::Kind;
     const bool has_letter =
         event.lasts() || event.kind == Kind::impact || event.kind == Kind::touch || event.kind == Kind::strike;
     if (event.is_stick()) return stick(event);
-    if (has_letter) see(event.time, event.side, event.velocity());
+    const bool is_of_wall = event.kind == Kind::strike || event.kind == Kind::hold;
+    if (has_letter) see(event.time, event.side, event.velocity(), tells_walls_ && is_of_wall);
   }
   /// The response has no impacts, and turns into its mirror whenever the force does.
   bool response(const ObservedSpan&, double) {
@@ -59,15 +64,15 @@ class ImpactWord::Observer {
     stuck_until_ = stick.end();
     if (shows_sticks_ && !goes_on) see(stick.time, Side::none, 0.0);
   }
-  void see(double time, Side side, double before) {
-    if (periodic_) contacts_.push_back({time, before, side});
+  void see(double time, Side side, double before, bool is_of_wall = false) {
+    if (periodic_) contacts_.push_back({time, before, side, is_of_wall});
   }
   /// A stick that the beginning of the period cuts is one.
   [[nodiscard]] std::vector<Contact> whole_contacts(double total) const;
   [[nodiscard]] bool is_stuck() const { return !moves_ && stuck_until_ >= 0; }
   [[nodiscard]] bool is_mirrored(const ObservedSpan& span, double x, double v) const;
 
-  bool periodic_, shows_sticks_;
+  bool periodic_, shows_sticks_, tells_walls_;
   double stuck_until_ = -1.0;              ///< end of the last stick, tau
   double half_;                            ///< of the period, in tau
   std::vector<Contact> contacts_{};        ///< in order

@@ -21,6 +21,7 @@ struct Impacts {
     bool of_soft_stops = false;  ///< with it: what only soft stops have
     bool of_sticks = false;      ///< with it: the share of time in which dry friction holds the mass
     bool loose_impacts = false;  ///< they are those of a loose mass, on walls in place of stops
+    bool wall_impacts = false;   ///< with it: those of a loose mass beside those of a main mass with stops or friction
   };
   struct Values {
     std::array<double, 2> impacts_per_period{no_value, no_value};  ///< [stop]
@@ -29,6 +30,10 @@ struct Impacts {
     std::array<double, 2> rest_fraction{no_value, no_value};
     double stick_fraction = no_value;
     std::array<double, 2> contact_fraction{no_value, no_value}, contact_force_max{no_value, no_value};
+    std::array<double, 2> wall_impacts_per_period{no_value, no_value};  ///< [wall]
+    std::array<double, 2> wall_v_before{no_value, no_value}, wall_v_after{no_value, no_value};
+    std::array<double, 2> wall_impact_speed{no_value, no_value};
+    std::array<double, 2> wall_rest_fraction{no_value, no_value};
   };
   static constexpr std::tuple fields{
       Field{Key{"observe", "impacts", Kind::flag, "false", "true",
@@ -54,6 +59,7 @@ struct Impacts {
         missing_if(not_hit, in_relative_frame(pair("impact_speed", "speed of the fastest impact", stop,
                                                    &Values::impact_speed, Quantity::velocity))),
         pair("rest_fraction", rest, stop, &Values::rest_fraction)};
+    if (settings.wall_impacts) add_walls(all);
     if (settings.of_sticks)
       all.push_back(scalar("stick_fraction", "share of time in which dry friction holds the mass away from rigid stops",
                            &Values::stick_fraction));
@@ -66,6 +72,20 @@ struct Impacts {
     return all;
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
+  /// Adds the columns of a loose mass beside those of the stops.
+  static void add_walls(std::vector<Column<Values>>& all) {
+    const Coordinate wall = stop_coordinate();
+    const auto of_hit = [&](Column<Values> column) { all.push_back(missing_if("the wall isn't hit", column)); };
+    all.push_back(pair("wall_impacts_per_period", "impacts on the wall per forcing period", wall,
+                       &Values::wall_impacts_per_period));
+    of_hit(pair("wall_v_before", "velocity z' of the loose mass before the first impact", wall, &Values::wall_v_before,
+                Quantity::velocity));
+    of_hit(pair("wall_v_after", "velocity z' of the loose mass after the first impact", wall, &Values::wall_v_after,
+                Quantity::velocity));
+    of_hit(pair("wall_impact_speed", "speed of the fastest impact of the loose mass", wall, &Values::wall_impact_speed,
+                Quantity::velocity));
+    all.push_back(pair("wall_rest_fraction", "share of time pressed on the wall", wall, &Values::wall_rest_fraction));
+  }
 
   struct OfStop {
     double count = 0.0;

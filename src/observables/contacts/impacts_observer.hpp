@@ -17,21 +17,23 @@ namespace clatter::observables {
 class Impacts::Observer {
  public:
   Observer() = default;
-  Observer(const Settings&, const ObservedSpan& span) : soft_stops_(span.scene.stops) {}
+  Observer(const Settings& settings, const ObservedSpan& span)
+      : tells_walls_(settings.wall_impacts), soft_stops_(span.scene.stops) {}
 
   template <class A>
   void arc(const A& arc, double, double length) {
     if constexpr (A::effects.stiffness)
       if (arc.constants().stop.side != Side::none && length > 0) contact(arc, length);
   }
-  /// The walls of a loose mass count like stops, with z' in place of the velocity. A contact with a soft stop counts
-  /// like an impact if the mass comes from outside; its velocities are those at the touch and where the stop's force
-  /// has fallen to 0.
+  /// The walls of a loose mass count like stops, beside which they are counted apart, with z' in place of the velocity.
+  /// A contact with a soft stop counts like an impact if the mass comes from outside; its velocities are those at the
+  /// touch and where the stop's force has fallen to 0.
   void event(const motion::Event& event) {
     using Kind = motion::Event::Kind;
     if (event.is_stick()) return stick(event);
     if (event.side == Side::none) return;
-    OfStop& stop = stops_[index_of(event.side)];
+    const bool is_of_wall = event.kind == Kind::strike || event.kind == Kind::hold;
+    OfStop& stop = (tells_walls_ && is_of_wall ? walls_ : stops_)[index_of(event.side)];
     switch (event.kind) {
       case Kind::impact:
       case Kind::strike:
@@ -71,6 +73,10 @@ class Impacts::Observer {
       values.contact_fraction[i] = std::min(1.0, (stops_[i].rest_time + stops_[i].contact_time) / span.total);
       if (is_soft(span.scene.stops, i == 0 ? Side::lower : Side::upper))
         values.contact_force_max[i] = std::max(0.0, stops_[i].force.high);
+      values.wall_impacts_per_period[i] = walls_[i].count / periods;
+      values.wall_v_before[i] = walls_[i].before, values.wall_v_after[i] = walls_[i].after;
+      if (walls_[i].count > 0) values.wall_impact_speed[i] = walls_[i].fastest;
+      values.wall_rest_fraction[i] = std::min(1.0, walls_[i].rest_time / span.total);
     }
     return values;
   }
@@ -107,7 +113,8 @@ class Impacts::Observer {
     include_polynomial(stop.force, split_off(force, length / arc.length()));
   }
 
-  std::array<OfStop, 2> stops_{};
+  bool tells_walls_ = false;
+  std::array<OfStop, 2> stops_{}, walls_{};  ///< [stop], of a loose mass if it has walls of its own
   Stops soft_stops_{};
   double stick_time_ = 0.0;  ///< tau
 };

@@ -18,17 +18,20 @@ namespace clatter::observables {
 
 class Energy::Observer {
  public:
-  Observer(const Settings&, const ObservedSpan& span)
+  Observer(const Settings& settings, const ObservedSpan& span)
       : oscillator_(span.scene.oscillator),
         stops_(span.scene.stops),
         friction_(span.scene.friction.kinetic),
         phase_(span.scene.start.phase) {
-    if (has_loose_mass(span.scene.loose)) loose_.emplace(span);
+    if (!has_loose_mass(span.scene.loose)) return;
+    loose_load_ = span.scene.loose.load;
+    settings.wall_energy ? void(share_.emplace(span.scene.loose)) : void(loose_.emplace(span));
   }
 
   template <class A>
   void arc(const A& arc, double begins, double length) {
     if (loose_) return loose_->arc(arc, begins, length);
+    if (share_) share_->arc(arc, length);
     if (!(length > 0)) return;
     const motion::Motion<double>& first = arc.start();
     see({first.x, arc.anchor(), first.offset}, first.v);
@@ -36,6 +39,7 @@ class Energy::Observer {
   }
   void event(const motion::Event& event) {
     if (loose_) return loose_->event(event);
+    if (share_ && share_->event(event)) return;
     if (!event.lasts() && event.kind != motion::Event::Kind::impact) return;
     see(Place(event.place), event.before);
     if (event.is_stick()) return press(event);
@@ -62,6 +66,7 @@ class Energy::Observer {
     if (is_soft_)
       values.energy_residual = force_work_ - loss_damping_ - loss_friction_ - lost - (kinetic / 2 + growth(end, way));
     values.impact_power = lost / span.total;
+    if (share_) add_share(span, values);
     return values;
   }
   [[nodiscard]] double evaluations() const {  ///< of arcs
@@ -76,6 +81,13 @@ class Energy::Observer {
     values.energy_residual = ledger.residual();
     values.impact_power = (ledger.lost[0] + ledger.lost[1]) / span.total;
     return values;
+  }
+  void add_share(const ObservedSpan& span, Values& values) const {
+    values.wall_loss_impact = share_->lost(), values.wall_impulse = share_->impulse();
+    const double lost = values.wall_loss_impact[0] + values.wall_loss_impact[1];
+    if (!span.periodic) values.work_in += share_->work();
+    values.energy_residual += share_->work() - lost - share_->growth();
+    values.impact_power += lost / span.total;
   }
   /// A displacement, and as an arc keeps it: its distance from an anchor has more digits beside a soft stop.
   struct Place {
@@ -111,10 +123,12 @@ class Energy::Observer {
     return force * way + stored;
   }
 
-  /// Over an arc, by panels in which neither v^2 nor v sin(theta) turns by more than a few radians.
+  /// Over an arc, by panels in which neither v^2 nor v sin(theta) turns by more than a few radians. The forces of both
+  /// masses as one are shares of those on the main mass.
   template <class A>
   void integrate(const A& arc, double length) {
     const auto& constants = arc.constants();
+    const double mass = 1 + constants.carried;
     if (stands_still(arc, length)) return press(arc, length);
     const auto panels = static_cast<std::size_t>(std::ceil(length * constants.rate / 2));
     double work = 0, squares = 0, impulse = 0;
@@ -124,18 +138,19 @@ class Energy::Observer {
       work += weight * m.v * m.sine, squares += weight * m.v * m.v;
       if (stop != nullptr) impulse += weight * stop->force(stop->into(m.offset), stop->into(m.v));
     });
-    force_work_ += constants.f * work;
+    force_work_ += mass * constants.f * work;
     if (is_soft_) {
       const motion::Motion<double> end = arc.at(length);
       last_ = Place(end.x, arc.anchor(), end.offset);
     }
-    if (constants.friction != 0) loss_friction_ -= constants.friction * (arc.at(length).offset - arc.start().offset);
+    if (constants.friction != 0)
+      loss_friction_ -= mass * constants.friction * (arc.at(length).offset - arc.start().offset);
     if (stop != nullptr) {
       loss_damping_ += 2 * oscillator_.damping * squares;
-      loss_impact_[index_of(stop->side)] += 2 * stop->damping * squares;
-      impulse_[index_of(stop->side)] += impulse;
+      loss_impact_[index_of(stop->side)] += mass * 2 * stop->damping * squares;
+      impulse_[index_of(stop->side)] += mass * impulse;
     } else {
-      loss_damping_ += 2 * constants.h * squares;
+      loss_damping_ += mass * 2 * constants.h * squares;
       if (is_soft_) lose_stored({arc.start().x, arc.anchor(), arc.start().offset}, *last_);
     }
     evaluations_ += 20 * static_cast<double>(panels);
@@ -190,8 +205,7 @@ class Energy::Observer {
   /// its own: friction holds the mass against that.
   [[nodiscard]] double pressing(const motion::Event& rest) const {
     if (friction_ == 0) return pressing(rest, rest.time, rest.length);
-    const double constant = sign_of(rest.side) * constant_force(oscillator_, rest.place),
-                 force = std::abs(oscillator_.forcing);
+    const double constant = sign_of(rest.side) * constant_force_at(rest), force = std::abs(oscillator_.forcing);
     if (constant >= force) return pressing(rest, rest.time, rest.length);
     if (constant <= -force) return 0.0;
     // the force is a sine of a phase that begins with it, and presses between two of its zeros
@@ -207,9 +221,13 @@ class Energy::Observer {
     }
     return sum;
   }
+  /// With the load of a loose mass that is pressed onto the one at rest.
+  [[nodiscard]] double constant_force_at(const motion::Event& rest) const {
+    return constant_force(oscillator_, rest.place) + rest.carried * loose_load_;
+  }
   [[nodiscard]] double pressing(const motion::Event& rest, double time, double length) const {
     const Oscillator& o = oscillator_;
-    double sum = constant_force(o, rest.place) * length;
+    double sum = constant_force_at(rest) * length;
     if (o.forcing != 0) {
       const double half = o.frequency * length / 2;
       sum += 2 * o.forcing / o.frequency * std::sin(phase_ + o.frequency * time + half) * std::sin(half);
@@ -239,7 +257,9 @@ class Energy::Observer {
   double force_work_ = 0, loss_damping_ = 0, loss_friction_ = 0;
   std::array<double, 2> loss_impact_{}, impulse_{};  ///< [stop]
   double evaluations_ = 0;
-  std::optional<LooseEnergy> loose_{};  ///< with a loose mass, in place of all others
+  std::optional<LooseEnergy> loose_{};  ///< with a loose mass on a main one without events, in place of all others
+  std::optional<LooseShare> share_{};   ///< with another loose mass, beside all others
+  double loose_load_ = 0.0;
 };
 
 }  // namespace clatter::observables

@@ -21,7 +21,7 @@ class LooseEnergy {
   explicit LooseEnergy(const ObservedSpan& span)
       : oscillator_(span.scene.oscillator),
         loose_(span.scene.loose),
-        rule_{loose_.ratio, {loose_.restitution}},
+        rule_(loose_),
         frame_(span.scene.shaking, oscillator_, span.theta),
         total_(span.total) {}
 
@@ -139,6 +139,58 @@ class LooseEnergy {
   std::optional<double> begin_loose_{};  ///< y'
   double loose_v_ = 0.0;                 ///< y', where it was seen last
   double work_ = 0.0, damped_ = 0.0, evaluations_ = 0.0;
+  std::array<double, 2> lost_{}, impulse_{};  ///< [wall]
+};
+
+/// What a loose mass adds to the ledger of a main mass with stops or friction (eq. 74): the work of its load, the
+/// losses on the walls, and its energy.
+class LooseShare {
+ public:
+  explicit LooseShare(const LooseMass& loose) : loose_(loose), rule_(loose) {}
+
+  template <class A>
+  void arc(const A& arc, double length) {
+    if constexpr (motion::Housed<A>)
+      if (length > 0) see(arc, arc.loose, length);
+  }
+  /// Tells whether it is one of a loose mass.
+  bool event(const motion::Event& event) {
+    using Kind = motion::Event::Kind;
+    if (event.kind != Kind::strike && event.kind != Kind::press) return event.kind == Kind::hold;
+    if (!begin_) begin_ = event.main.before + event.before;
+    lost_[index_of(event.side)] += rule_.loss(event.before, event.after);
+    impulse_[index_of(event.side)] += rule_.share() * std::abs(event.before - event.after);
+    end_ = event.main.after + event.after;
+    return true;
+  }
+
+  [[nodiscard]] const std::array<double, 2>& lost() const { return lost_; }        ///< [wall]
+  [[nodiscard]] const std::array<double, 2>& impulse() const { return impulse_; }  ///< [wall]
+  /// Of a period the work is rounding alone.
+  [[nodiscard]] double work() const { return loose_.ratio * loose_.load * way_; }
+  [[nodiscard]] double growth() const {
+    return loose_.ratio * (end_ - begin_.value_or(0.0)) * (end_ + begin_.value_or(0.0)) / 2;
+  }
+
+ private:
+  template <class A, class Flight>
+  void see(const A&, const Flight& loose, double length) {
+    const double from = loose.velocity(0.0);
+    if (!begin_) begin_ = from;
+    end_ = loose.velocity(length), way_ += (from + end_) / 2 * length;
+  }
+  template <class A>
+  void see(const A& main, const motion::Pressed& loose, double length) {
+    const motion::Motion<double>&from = main.start(), to = main.at(length);
+    if (!begin_) begin_ = from.v;
+    impulse_[index_of(loose.wall)] += loose_.ratio * std::abs(loose_.load * length - (to.v - from.v));
+    end_ = to.v, way_ += to.offset - from.offset;
+  }
+
+  LooseMass loose_;
+  motion::WallRule<double> rule_;
+  std::optional<double> begin_{};             ///< y'
+  double end_ = 0.0, way_ = 0.0;              ///< y', and by how much y grows
   std::array<double, 2> lost_{}, impulse_{};  ///< [wall]
 };
 

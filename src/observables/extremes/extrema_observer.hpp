@@ -46,12 +46,12 @@ class Extrema::Observer {
     using Kind = motion::Event::Kind;
     if (event.kind == Kind::strike) z_.include(event.place);
     if (absolute_ != nullptr) {
-      if (event.lasts() && event.kind != Kind::hold) include_absolute(event);
+      if (event.lasts() && !event.has_arc) include_absolute(event);
     } else if (event.kind == Kind::strike) {
       v_.include(event.main.before), v_.include(event.main.after);
     } else if (event.kind == Kind::impact) {
       x_.include(event.place), v_.include(event.before), v_.include(event.after);
-    } else if (event.lasts() && event.kind != Kind::hold) {
+    } else if (event.lasts() && !event.has_arc) {
       x_.include(event.place), v_.include(0.0);
     }
   }

@@ -60,7 +60,7 @@ class ExactHarmonics {
   }
   /// Beside the flights, times at rest; a mass on which a loose one presses moves along an arc.
   void event(const motion::Event& event) {
-    if (!event.lasts() || event.kind == motion::Event::Kind::hold) return;
+    if (!event.lasts() || event.has_arc) return;
     if (!(event.time > 0.0)) first_x_ = event.place;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k);

@@ -25,7 +25,7 @@ class Sampler {
     by_runs(arc, begin, length, 0, [](const auto&, std::size_t) {});
   }
   void event(const motion::Event& event) {
-    if (event.lasts() && event.kind != motion::Event::Kind::hold)
+    if (event.lasts() && !event.has_arc)
       while (is_due_before(event.end())) add(event.place, due() > event.time ? 0.0 : event.before);
     if (event.kind != motion::Event::Kind::impact) return;
     last_ = event;

@@ -37,7 +37,7 @@ class HousingWalk {
         free_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude, scene.oscillator.frequency,
                                                  scene.oscillator.load, scene.oscillator.stiffness)),
         carrying_(free_, scene.loose),
-        rule_{scene.loose.ratio, {scene.loose.restitution}} {}
+        rule_(scene.loose) {}
 
   Sensitivity::ByKey run() {
     if (is_neutral()) return {};
@@ -135,7 +135,7 @@ class HousingWalk {
   /// An impact on a wall (eq. 70), and the loss of what is left of a chatter.
   void meet(const Stretch& stretch) {
     if (stretch.struck() != Side::none) {
-      const Along speed = abs(state_.w), after = rule_.law.after(state_.w);
+      const Along speed = abs(state_.w), after = rule_.law_for(state_.w).after(state_.w);
       Along& fastest = fastest_[index_of(stretch.struck())];
       if (!(fastest.value >= speed.value)) fastest = speed;
       lost_ += rule_.loss(state_.w, after);

@@ -24,7 +24,7 @@ class Stability::Observer {
       : Observer(span.scene.stops, span.uncertainty, pace_of(span.scene.oscillator)) {
     if (has_friction(span.scene.friction)) graze_matters_ = false, rough_.emplace(span.scene, span.uncertainty);
     if (!has_loose_mass(span.scene.loose)) return;
-    graze_matters_ = false, loose_.emplace(span.scene.oscillator, span.scene.loose);
+    graze_matters_ = false, rough_.reset(), loose_.emplace(span.scene);
     if (span.periodic) walls_.emplace(span.scene.loose, span.uncertainty);
   }
 
@@ -116,7 +116,7 @@ class Stability::Observer {
     if (!span.periodic) values.lyapunov = (log_norm(loose_->mantissa()) + power * std::numbers::ln2) / span.total;
     if (!span.periodic || grazes()) return values;
     auto all = known_of(multipliers_of(loose_->mantissa()), power);
-    if (loose_->has_pressed()) all[2] = all[3] = 0.0;  // but for rounding
+    if (loose_->loses_two()) all[2] = all[3] = 0.0;  // but for rounding
     values.lyapunov = (std::log(std::abs(all[0])) + power * std::numbers::ln2) / span.total;
     for (std::size_t i = 0; i < all.size(); ++i) {
       values.multiplier_re[i] = motion::TangentMap<double>::scaled(all[i].real(), power) + 0.0;  // no negative zero

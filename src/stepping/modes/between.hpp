@@ -13,7 +13,7 @@ template <class Loop>
 struct Between {
   static constexpr Row row{"between stops", "free", "gaps to both stops", Search::gaps,
                            "impact, rest; touch of a soft stop"};
-  static constexpr bool called_for = !Loop::effects.loose;
+  static constexpr bool called_for = true;
   using Number = typename Loop::Number;
   using State = motion::State<Number>;
   using Crossing = motion::Crossing<Number>;
@@ -42,7 +42,7 @@ struct Between {
           return Outcome::completed;
         }
       }
-    return laws::wait(stage, contact.side);
+    return laws::wait(loop, stage, contact.side);
   }
   template <class Stage, class Flown>
   [[nodiscard]] Outcome end(Stage& stage, const Flown& flown) const {

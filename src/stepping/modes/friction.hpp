@@ -73,7 +73,7 @@ template <class Loop>
 struct Stuck {
   static constexpr Row row{"stick", "held by friction, at any place", "the level of friction", Search::closed_form,
                            "release"};
-  static constexpr bool called_for = Loop::effects.friction && !Loop::effects.loose;
+  static constexpr bool called_for = Loop::effects.friction;
   using Number = typename Loop::Number;
   using Holding = motion::Holding<Number>;
 
@@ -89,7 +89,7 @@ struct Stuck {
       if (const auto release = modes::upcoming(modes::in_section(loop, holding.release_phase(loop.constants(), side)),
                                                state.phase_turns, first ? *first : stage.end))
         first = release;
-    return laws::hold(stage, holding.stop, first);
+    return laws::hold(loop, stage, holding.stop, first);
   }
 };
 
@@ -119,7 +119,7 @@ struct AnySlip {
       laws::enter(state, ahead);
       return Outcome::completed;
     }
-    return laws::wait(stage, loop.holding_at(state).stop);
+    return laws::wait(loop, stage, loop.holding_at(state).stop);
   }
   /// Whether the velocity, the second margin, has fallen to 0, perhaps with the horizon.
   [[nodiscard]] static bool is_still(const Crossing& crossing) {

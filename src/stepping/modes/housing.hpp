@@ -1,37 +1,53 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "motion/housed_arc.hpp"
 #include "motion/relative_arc.hpp"
-#include "motion/walls.hpp"
-#include "stepping/modes/mode.hpp"
+#include "stepping/carrying.hpp"
+#include "stepping/modes/row.hpp"
+#include "stepping/stage.hpp"
 
+/// What a loose mass adds to every mode of the main one: a parabola beside its flight, or a share in its mass, and one
+/// more guard.
 namespace clatter::stepping {
 
-/// A wall that presses a loose mass.
-template <class Number>
-struct Pressing {
-  Side wall;    ///< none: whatever its force is, nothing ends the time
-  Number load;  ///< y'' of the loose mass alone
-};
+/// The loose mass flies between the walls of its housing.
+inline constexpr Row flying_row{"flying", "its parabola, beside the mode's", "gaps to both walls", Search::gaps,
+                                "impact of the loose mass, press"};
+/// A wall presses the loose mass: both move as one until the wall would have to pull.
+inline constexpr Row pressed_row{"pressed", "the mode's, of both masses as one",
+                                 "force of the wall, in the acceleration", Search::pull, "release"};
 
 namespace modes {
 
+/// Runs the first mode of the table that has the state.
+template <class Loop, class Stage>
+[[nodiscard]] Outcome run_first(Loop& loop, Stage& stage);
+/// The acceleration of the main mass in that mode; nothing if something holds it.
+template <class Loop, class State>
+[[nodiscard]] std::optional<typename Loop::Number> acceleration(Loop& loop, const State& state);
+/// Lets a soft stop beyond whose position the mass is begin to push, or cease to, once an impact has changed its speed.
+template <class Loop, class Stage>
+[[nodiscard]] Outcome push_anew(Loop& loop, Stage& stage);
+
 /// The acceleration z'' with which a loose mass is driven into a wall that it is on.
 template <class Loop, class State>
-[[nodiscard]] auto into_wall(const Loop& loop, Side side, const State& state) {
+[[nodiscard]] auto into_wall(Loop& loop, Side side, const State& state) {
   using Number = typename Loop::Number;
-  const auto& load = loop.walls().load;
-  return Number(sign_of(side) * (load - loop.motion(loop.constants(), state, load).a));
+  return Number(sign_of(side) * (loop.walls().load - acceleration(loop, state).value_or(Number(0))));
 }
-/// Whether it lies on a wall that presses it.
+/// Whether it lies on a wall that presses it, or in a housing in which nothing moves.
 template <class Loop, class State>
-[[nodiscard]] bool lies_pressed(const Loop& loop, const State& state) {
+[[nodiscard]] bool lies_pressed(Loop& loop, const State& state) {
   const auto& loose = state.loose;
-  if (loose.wall == Side::none || loose.place != 0 || loose.speed != 0 || state.released) return false;
-  return into_wall(loop, loose.wall, state) > 0;
+  if (loose.wall == Side::none || loose.place != 0 || loose.speed != 0 || loose.released) return false;
+  const auto into = into_wall(loop, loose.wall, state);
+  return into > 0 || (into == 0 && !acceleration(loop, state));
 }
 /// The share of a motion below which a rebound is lost in its rounding. In 50 digits, the reference for double, it
 /// lies far below all that a double can tell, and above rounding, since each impact there takes up to a millisecond.
@@ -54,34 +70,76 @@ template <class Loop, class State, class Number>
 [[nodiscard]] bool is_faded(const Loop& loop, const State& state, const Number& w, const Number& pressing) {
   if (!(pressing > 0)) return false;
   if (w == 0) return true;
-  if (!loop.walls().rule.law.loses()) return false;
+  if (!loop.loses()) return false;
   return w <= faded<Number>() * extent(loop, state) || 2 * w <= pressing * epsilon<Number>() * loop.period();
 }
-/// To the end of a flight of both masses.
-template <class Stage, class Number>
-void go_on(Stage& stage, const Number& elapsed, const motion::Motion<Number>& there) {
-  const bool ends = elapsed == stage.time_left();
-  stage.pass(elapsed);
-  auto& state = stage.state;
-  if (ends) state.phase_turns = stage.end;
-  state.x = there.x, state.v = there.v, state.released = false;
+/// The speed below which an impact of a mass at x is lost in the rounding of its motion.
+template <class Loop, class Number>
+[[nodiscard]] Number faded_speed(const Loop& loop, const Number& x) {
+  using std::abs;
+  const auto& c = loop.constants();
+  return faded<Number>() * (c.rate * abs(x) + (abs(c.f) + abs(c.load)) / c.rate);
 }
-/// Both masses as one, for a time or until a wall would have to pull.
-template <class Loop, class Stage, class Number>
-motion::Crossing<Number> move_as_one(Loop& loop, Stage& stage, Side pulled_by, const Number& horizon) {
-  return loop.walls().carrying.with_constants([&](const auto& constants) {
-    auto& state = stage.state;
-    const auto flight = loop.method().carry(constants, state, loop.motion(constants, state), loop.anchor(state),
-                                            Pressing<Number>{pulled_by, loop.walls().load}, horizon);
-    const motion::Crossing<Number>& crossing = flight.crossing;
-    if (!crossing.resolved) return crossing;
-    const Side side = state.loose.wall;
-    const double place = static_cast<double>(loop.walls().place(side));
-    stage.show(motion::HousedArc{flight.arc, motion::Pressed{side, place}}, crossing.elapsed);
-    stage.show({Stage::Kind::hold, side, stage.time(), 0.0, static_cast<double>(crossing.elapsed), 0.0, place});
-    go_on(stage, crossing.elapsed, crossing.motion);
-    return crossing;
-  });
+/// Whether a main mass is on a rigid stop, and leaves it, or meets it, more slowly than rounding tells: then it rests
+/// there, with the loose one if that strikes as slowly.
+template <class Loop, class State>
+[[nodiscard]] bool rests(const Loop& loop, const State& state) {
+  using std::abs;
+  if constexpr (!Loop::effects.rest) return false;
+  if (state.from_stop == Side::none || state.offset != 0 || state.within != Side::none || !loop.loses()) return false;
+  return abs(state.v) <= faded_speed(loop, state.x);
+}
+/// Whether a flight that begins with z' = w ends where nothing tells it from a press: at once, or on the wall that it
+/// begins on, from which it rises by less than rounding. The force of the wall touches zero there, and its sign is
+/// that of rounding.
+template <class Loop, class State, class Number>
+[[nodiscard]] bool is_lost(const Loop& loop, const State& state, const motion::Crossing<Number>& contact,
+                           const Number& w) {
+  using std::abs;
+  if (contact.side == Side::none) return false;
+  if (contact.elapsed == 0 && w == 0) return true;
+  const motion::LooseState<Number>& loose = state.loose;
+  if (loose.wall != contact.side || loose.place != 0 || !(contact.elapsed <= loop.shortest_hop())) return false;
+  return abs(w) <= faded<Number>() * extent(loop, state);
+}
+template <class Loop, class State>
+[[nodiscard]] motion::RelativeStart<typename Loop::Number> loose_start_of(const Loop& loop, const State& state) {
+  using Number = typename Loop::Number;
+  const motion::LooseState<Number>& loose = state.loose;
+  if (loose.wall == Side::none) return {Number(0), loose.place - state.x, loose.speed - state.v, loose.speed};
+  return {loop.walls().place(loose.wall), loose.place, loose.speed, loose.speed + state.v};
+}
+/// Moves a loose mass to the end of a flight, or to its contact.
+template <class Walls, class Number>
+void move_loose(const Walls& walls, motion::LooseState<Number>& loose, const motion::Crossing<Number>& contact) {
+  if (contact.side != Side::none) {
+    loose = {contact.side, Number(0), contact.motion.v};
+  } else if (loose.wall != Side::none) {
+    loose = {loose.wall, contact.motion.offset, contact.motion.v};
+  } else {
+    loose.place += (loose.speed + walls.load * contact.elapsed / 2) * contact.elapsed;
+    loose.speed += walls.load * contact.elapsed;
+  }
+}
+/// Shows the motion of both masses as one.
+template <class Loop, class Stage, class A, class Number>
+void show_as_one(const Loop& loop, const Stage& stage, const A& main, const Number& length) {
+  const Side side = stage.state.loose.wall;
+  const double place = static_cast<double>(loop.walls().place(side));
+  stage.show(motion::HousedArc{main, motion::Pressed{side, place}}, length);
+  stage.show({.kind = Stage::Kind::hold,
+              .side = side,
+              .time = stage.time(),
+              .length = static_cast<double>(length),
+              .place = place,
+              .has_arc = true});
+}
+/// Whether a wall that pressed a loose mass up to an event of the main one no longer does so.
+template <class State, class Number>
+[[nodiscard]] bool parts(State& state, const Number& into) {
+  if (!std::exchange(state.loose.may_part, false) || into > 0) return false;
+  state.loose.pressed = false;
+  return true;
 }
 
 }  // namespace modes
@@ -99,7 +157,8 @@ void press(const Loop& loop, Stage& stage, Side side, const Number& w) {
   auto& state = stage.state;
   const Number before = state.v;
   state.v = loop.walls().rule.main_with(state.v, w);
-  state.loose = {side, Number(0), Number(0), true}, state.released = false;
+  state.loose = {side, Number(0), Number(0), true};
+  if (modes::rests(loop, state)) state.v = 0, state.loose.may_part = true;
   stage.show({.kind = Stage::Kind::press,
               .side = side,
               .time = stage.time(),
@@ -113,8 +172,8 @@ template <class Loop, class Stage, class Number>
   if (!(sign_of(side) * w > 0)) return Outcome::completed;  // it touches
   auto& state = stage.state;
   const auto& rule = loop.walls().rule;
-  const Number before = state.v, after = rule.law.after(w);
-  state.v = rule.main_after(state.v, w);
+  const Number before = state.v, after = rule.law(side).after(w);
+  state.v = rule.main_after(state.v, w), state.released = false;
   state.loose = {side, Number(0), after};
   stage.show({.kind = Stage::Kind::strike,
               .side = side,
@@ -124,107 +183,116 @@ template <class Loop, class Stage, class Number>
               .place = static_cast<double>(loop.walls().place(side)),
               .turns = static_cast<double>(state.phase_turns),
               .main = main_at(state, before)});
-  if (modes::is_faded(loop, state, Number(-sign_of(side) * after), modes::into_wall(loop, side, state)))
+  const Number rebound = -sign_of(side) * after;
+  const bool collapses = modes::rests(loop, state) && rebound <= modes::faded_speed(loop, state.x);
+  if (collapses || modes::is_faded(loop, state, rebound, modes::into_wall(loop, side, state)))
     press(loop, stage, side, after);
   return loop.count_impact() ? Outcome::completed : Outcome::event_budget;
+}
+/// Holds the loose mass past an instant at which the force of its wall is zero to rounding, so its sign decides
+/// nothing. After sqrt(epsilon) of a period it is clear of rounding.
+template <class Loop, class Stage, class Number>
+[[nodiscard]] Outcome wait_on_wall(Loop& loop, Stage& stage, Side side, const Number& w) {
+  using std::min, std::sqrt;
+  const Number end = min(stage.end, Number(stage.state.phase_turns + sqrt(epsilon<Number>())));
+  press(loop, stage, side, w);
+  stage.state.loose.may_part = false;
+  Stage shorter = stage.up_to(end);
+  shorter.keeps_pressed = true;
+  const Outcome outcome = loop.run_carrying(shorter);
+  stage.state.loose.pressed = false;
+  return outcome;
 }
 
 }  // namespace laws
 
-/// A wall presses the loose mass: both move as one until the wall would have to pull.
-template <class Loop>
-struct Pressed {
-  static constexpr Row row{"pressed", "both masses as one", "force of the wall, in the acceleration", Search::pull,
-                           "release"};
-  static constexpr bool called_for = Loop::effects.loose;
+namespace modes {
 
-  [[nodiscard]] static bool has(const Loop& loop, const motion::State<typename Loop::Number>& state) {
-    return state.loose.pressed || modes::lies_pressed(loop, state);
-  }
-  template <class Stage>
-  [[nodiscard]] static Outcome run(Loop& loop, Stage& stage) {
-    using Number = typename Loop::Number;
-    auto& state = stage.state;
-    if (!state.loose.pressed) laws::press(loop, stage, state.loose.wall, Number(0));
-    const auto crossing = modes::move_as_one(loop, stage, state.loose.wall, stage.time_left());
-    if (!crossing.resolved) return loop.outcome_at(crossing);
-    if (crossing.margin == 0) state.loose.pressed = false, state.released = true;
-    return Outcome::completed;
-  }
-};
-
-/// The loose mass flies between the walls of its housing.
-template <class Loop>
-struct InHousing {
-  static constexpr Row row{"in a housing", "free; the loose mass on its parabola", "gaps to both walls", Search::gaps,
-                           "impact of the loose mass, press"};
-  static constexpr bool called_for = Pressed<Loop>::called_for;
+/// Ends a flight of the main mass beside which the loose one flies: with an event of its own, or where that strikes.
+template <class Mode, class Loop, class Stage, class A, class Flown>
+[[nodiscard]] Outcome end_flying(const Mode& mode, Loop& loop, Stage& stage, const A& main, Flown flown) {
   using Number = typename Loop::Number;
-  using State = motion::State<Number>;
-  using Crossing = motion::Crossing<Number>;
-
-  [[nodiscard]] static bool has(const Loop&, const State&) { return true; }
-
-  template <class Stage>
-  [[nodiscard]] static Outcome run(Loop& loop, Stage& stage) {
-    State& state = stage.state;
-    const auto& walls = loop.walls();
-    const Number horizon = stage.time_left();
-    const auto flight = loop.method().fly_in_housing(state, loop.motion(loop.constants(), state, walls.load),
-                                                     loop.anchor(state), start_of(loop, state), walls, horizon);
-    const auto& arc = flight.arc;
-    const Crossing& contact = flight.crossing;
+  using std::abs;
+  auto& state = stage.state;
+  const auto& walls = loop.walls();
+  const auto start = loose_start_of(loop, state);
+  const auto beside = loop.method().beside(main, start, walls.load);
+  const motion::Crossing<Number> contact = loop.method().meet_wall(beside, walls.places, flown.crossing.elapsed);
+  if (!contact.resolved) return loop.outcome_at(contact);
+  if (is_lost(loop, state, contact, start.w)) return laws::wait_on_wall(loop, stage, contact.side, start.w);
+  const bool meets = contact.side != Side::none, together = contact.elapsed == flown.crossing.elapsed;
+  const bool is_slower = abs(contact.motion.v) < abs(flown.crossing.motion.v);
+  const bool strikes = meets && !(flown.is_event() && together && is_slower);
+  if (strikes || !Loop::effects.stops()) {
+    if (!(flown.is_event() && together)) flown.crossing.motion = main.at(contact.elapsed);
+    flown.crossing.margin = flown.guards, flown.crossing.side = Side::none, flown.crossing.elapsed = contact.elapsed;
+  }
+  stage.show(motion::HousedArc{main, beside}, contact.elapsed);
+  move_loose(walls, state.loose, contact);
+  const Outcome outcome = end_main(mode, stage, flown);
+  if (outcome != Outcome::completed || !strikes) return outcome;
+  const Outcome struck = laws::strike(loop, stage, contact.side, contact.motion.v);
+  return struck == Outcome::completed ? push_anew(loop, stage) : struck;
+}
+/// Ends a flight of both masses as one: with an event of the main mass, or where the wall would have to pull.
+template <class Mode, class Loop, class Stage, class A, class Flown>
+[[nodiscard]] Outcome end_pressed(const Mode& mode, Loop& loop, Stage& stage, const A& main, Flown flown) {
+  using Number = typename Loop::Number;
+  auto& state = stage.state;
+  auto& loose = state.loose;
+  const Pressing<Number> pressing{loose.wall, loop.walls().load};
+  if (parts(state, Number(sign_of(loose.wall) * (pressing.load - flown.start.a)))) return Outcome::completed;
+  bool releases = false;
+  if (!stage.keeps_pressed) {
+    const motion::Crossing<Number> pull = loop.method().let_go(main, pressing, flown.crossing.elapsed);
+    if (!pull.resolved) return loop.outcome_at(pull);
+    releases = pull.margin == 0 && !(flown.is_event() && pull.elapsed == flown.crossing.elapsed);
+    if (releases || !Loop::effects.stops()) flown.crossing = {flown.guards, Side::none, pull.elapsed, pull.motion};
+  } else if (!Loop::effects.stops()) {
+    flown.crossing.motion = main.at(flown.crossing.elapsed);
+  }
+  show_as_one(loop, stage, main, flown.crossing.elapsed);
+  const bool is_event = flown.is_event();
+  const Outcome outcome = end_main(mode, stage, flown);
+  if (releases)
+    loose.pressed = false, loose.released = true;
+  else if (loose.pressed)
+    loose.may_part = is_event;
+  return outcome;
+}
+/// Holds the main mass up to the phase `until`, or until the loose one strikes.
+template <class Loop, class Stage, class Number>
+[[nodiscard]] Outcome stay_in_housing(Loop& loop, Stage& stage, Side side, const Number& until, bool held) {
+  auto& state = stage.state;
+  const auto& walls = loop.walls();
+  const auto& constants = loop.held_constants(Loop::carries);
+  const Number length = (until - state.phase_turns) * loop.period();
+  const auto main = loop.method().held_arc(constants, state, loop.motion(constants, state), loop.anchor(state), length);
+  if constexpr (Loop::carries) {
+    if (sign_of(state.loose.wall) * walls.load < 0 && parts(state, Number(0))) return Outcome::completed;
+    stage.show_rest(side, Number(until - state.phase_turns), held, static_cast<double>(constants.carried));
+    show_as_one(loop, stage, main, length);
+    state.phase_turns = until;
+    return Outcome::completed;
+  } else {
+    const auto start = loose_start_of(loop, state);
+    const auto beside = loop.method().beside(main, start, walls.load);
+    const motion::Crossing<Number> contact = loop.method().meet_wall(beside, walls.places, length);
     if (!contact.resolved) return loop.outcome_at(contact);
-    if (const Number& w = arc.start().v; contact.side != Side::none && is_lost(loop, state, contact, w)) {
-      state.loose = {contact.side, Number(0), Number(0)};
-      return wait(loop, stage, w);
-    }
-    stage.show(motion::HousedArc{arc.main(), arc}, contact.elapsed);
+    if (is_lost(loop, state, contact, start.w)) return laws::wait_on_wall(loop, stage, contact.side, start.w);
+    stage.show_rest(side, Number(contact.elapsed / loop.period()), held);
+    stage.show(motion::HousedArc{main, beside}, contact.elapsed);
     move_loose(walls, state.loose, contact);
-    modes::go_on(stage, contact.elapsed, arc.main().at(contact.elapsed));
+    if (contact.elapsed == length)
+      state.phase_turns = until;
+    else
+      stage.pass(contact.elapsed);
     if (contact.side == Side::none) return Outcome::completed;
-    return laws::strike(loop, stage, contact.side, contact.motion.v);
+    const Outcome struck = laws::strike(loop, stage, contact.side, contact.motion.v);
+    return struck == Outcome::completed ? push_anew(loop, stage) : struck;
   }
+}
 
- private:
-  [[nodiscard]] static motion::RelativeStart<Number> start_of(const Loop& loop, const State& state) {
-    const motion::LooseState<Number>& loose = state.loose;
-    if (loose.wall == Side::none) return {Number(0), loose.place - state.x, loose.speed - state.v, loose.speed};
-    return {loop.walls().place(loose.wall), loose.place, loose.speed, loose.speed + state.v};
-  }
-  /// Whether a flight that begins with z' = w ends where nothing tells it from a press: at once, or on the wall that it
-  /// begins on, from which it rises by less than rounding. The force of the wall touches zero there, and its sign is
-  /// that of rounding.
-  [[nodiscard]] static bool is_lost(const Loop& loop, const State& state, const Crossing& contact, const Number& w) {
-    using std::abs;
-    if (contact.elapsed == 0 && w == 0) return true;
-    const motion::LooseState<Number>& loose = state.loose;
-    if (loose.wall != contact.side || loose.place != 0 || !(contact.elapsed <= loop.shortest_hop())) return false;
-    return abs(w) <= modes::faded<Number>() * modes::extent(loop, state);
-  }
-  /// Holds the loose mass past an instant at which the force of its wall is zero to rounding, so its sign decides
-  /// nothing. After sqrt(epsilon) of a period it is clear of rounding.
-  template <class Stage>
-  [[nodiscard]] static Outcome wait(Loop& loop, Stage& stage, const Number& w) {
-    using std::min, std::sqrt;
-    const Number time = min(stage.time_left(), Number(sqrt(epsilon<Number>()) * loop.period()));
-    laws::press(loop, stage, stage.state.loose.wall, w);
-    const Crossing crossing = modes::move_as_one(loop, stage, Side::none, time);
-    stage.state.loose.pressed = false;
-    return loop.outcome_at(crossing);
-  }
-  /// To the end of a flight.
-  template <class Walls>
-  static void move_loose(const Walls& walls, motion::LooseState<Number>& loose, const Crossing& contact) {
-    if (contact.side != Side::none) {
-      loose = {contact.side, Number(0), contact.motion.v};
-    } else if (loose.wall != Side::none) {
-      loose.place = contact.motion.offset, loose.speed = contact.motion.v;
-    } else {
-      loose.place += (loose.speed + walls.load * contact.elapsed / 2) * contact.elapsed;
-      loose.speed += walls.load * contact.elapsed;
-    }
-  }
-};
+}  // namespace modes
 
 }  // namespace clatter::stepping

@@ -1,28 +1,17 @@
 #pragma once
 
-#include <string_view>
+#include <cstddef>
 #include <type_traits>
 
 #include "stepping/integrator.hpp"
+#include "stepping/modes/housing.hpp"
+#include "stepping/modes/row.hpp"
 #include "stepping/stage.hpp"
 
 namespace clatter::stepping {
 
-/// How the first of a mode's guards that falls to 0 is found: gaps to rigid stops and walls keep their relative
-/// accuracy by a rule of their own (`motion::GapRule`), as does the pull of a wall (`PullRule`); all else goes by
-/// `MarginRule`, or is known in closed form.
-enum class Search { gaps, margins, pull, closed_form };
-
-/// A mode in words: a row of the guide's table.
-struct Row {
-  std::string_view mode, oscillator, guards;
-  Search search;
-  std::string_view laws;
-};
-
 /// An arc and its end: the first of its margins that falls to 0, else the horizon, or an earlier instant if the method
-/// divides the flight into several arcs. Of a loose mass the arc is that in its housing, and knows that of the main
-/// mass.
+/// divides the flight into several arcs.
 template <class A>
 struct ArcToEvent {
   A arc;
@@ -30,6 +19,23 @@ struct ArcToEvent {
 };
 
 namespace modes {
+
+/// The beginning of a flight, whose acceleration at a release is known exactly.
+template <class Mode, class Loop, class Constants, class State>
+[[nodiscard]] auto start_of(const Mode& mode, const Loop& loop, const Constants& constants, const State& state) {
+  using Number = typename Loop::Number;
+  Number released(0);
+  if constexpr (requires { mode.release_acceleration(); }) {
+    released = mode.release_acceleration();
+    if constexpr (Loop::effects.loose && !Loop::carries)
+      if (state.loose.wall != Side::none && state.loose.place == 0 && state.loose.speed == 0)
+        released -= loop.walls().rule.ratio * loop.walls().load;  // both were let go, and the loose one falls behind
+  }
+  auto start = loop.motion(constants, state, released);
+  if constexpr (Loop::effects.loose)
+    if (state.loose.released) start.a = loop.walls().load;  // z'' = 0 there
+  return start;
+}
 
 /// The force of a soft stop, over its stiffness, as a margin of a mass in contact.
 template <class Number>
@@ -44,27 +50,37 @@ template <class Number, class Constants>
 struct Flown {
   const Constants& constants;
   const motion::Motion<Number>& start;
-  const motion::Crossing<Number>& crossing;
+  motion::Crossing<Number> crossing;
   Number horizon;
+  std::size_t guards;  ///< of the mode
+
+  /// Whether it ends with the first of them, not at the horizon.
+  [[nodiscard]] bool is_event() const { return crossing.side != Side::none || crossing.margin < guards; }
 };
+
+/// Ends a flight of the main mass.
+template <class Mode, class Stage, class Flown>
+[[nodiscard]] Outcome end_main(const Mode& mode, Stage& stage, const Flown& flown) {
+  auto& state = stage.state;
+  const auto& crossing = flown.crossing;
+  stage.pass(crossing.elapsed);
+  state.x = crossing.motion.x, state.v = crossing.motion.v, state.offset = crossing.motion.offset;
+  return mode.end(stage, flown);
+}
 
 /// Runs a mode in which the mass moves: on one arc of the mode's oscillator, up to the first of its guards or to the
 /// end of the stage. A flight that ends where it begins, or that rounding alone tells from none, is none.
 template <class Mode, class Loop, class Stage>
 [[nodiscard]] Outcome run(const Mode& mode, Loop& loop, Stage& stage) {
   using Number = typename Loop::Number;
+  constexpr bool by_gaps = Mode::row.search == Search::gaps;
   motion::State<Number>& state = stage.state;
   return mode.with_oscillator([&](const auto& constants) {
     const Number horizon = stage.time_left(), anchor = loop.anchor(state);
-    const motion::Motion<Number> start = [&] {
-      if constexpr (requires { mode.release_acceleration(); })
-        return loop.motion(constants, state, mode.release_acceleration());
-      else
-        return loop.motion(constants, state);
-    }();
+    const motion::Motion<Number> start = modes::start_of(mode, loop, constants, state);
     const auto flight = [&] {
-      if constexpr (Mode::row.search == Search::gaps)
-        return loop.method().fly(state, start, anchor, horizon);
+      if constexpr (by_gaps)
+        return loop.method().fly(constants, state, start, anchor, horizon);
       else
         return loop.method().fly_within(constants, state, start, anchor, mode.margins(), horizon);
     }();
@@ -72,11 +88,17 @@ template <class Mode, class Loop, class Stage>
     if (!crossing.resolved) return loop.outcome_at(crossing);
     if constexpr (requires { mode.is_none(crossing); })
       if (mode.is_none(crossing)) return mode.wait(stage, crossing);
-    stage.show(flight.arc, crossing.elapsed);
-    stage.pass(crossing.elapsed);
-    state.x = crossing.motion.x, state.v = crossing.motion.v, state.offset = crossing.motion.offset;
-    return mode.end(stage,
-                    Flown<Number, std::remove_cvref_t<decltype(constants)>>{constants, start, crossing, horizon});
+    std::size_t guards = 0;
+    if constexpr (!by_gaps) guards = mode.margins().size();
+    const Flown<Number, std::remove_cvref_t<decltype(constants)>> flown{constants, start, crossing, horizon, guards};
+    if constexpr (Loop::effects.loose && Loop::carries) {
+      return modes::end_pressed(mode, loop, stage, flight.arc, flown);
+    } else if constexpr (Loop::effects.loose) {
+      return modes::end_flying(mode, loop, stage, flight.arc, flown);
+    } else {
+      stage.show(flight.arc, crossing.elapsed);
+      return end_main(mode, stage, flown);
+    }
   });
 }
 

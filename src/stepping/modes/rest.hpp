@@ -11,7 +11,7 @@ namespace clatter::stepping {
 template <class Loop>
 struct AtRest {
   static constexpr Row row{"at rest", "held by a stop", "its force", Search::closed_form, "release"};
-  static constexpr bool called_for = Loop::effects.rest && !Loop::effects.loose;
+  static constexpr bool called_for = Loop::effects.rest;
   using Number = typename Loop::Number;
 
   [[nodiscard]] static auto has(const Loop& loop, const motion::State<Number>& state) {
@@ -21,17 +21,17 @@ struct AtRest {
   [[nodiscard]] static Outcome run(Loop& loop, Stage& stage, const motion::Stop<Number>& stop) {
     auto& state = stage.state;
     state.from_stop = stop.side, state.offset = 0;
-    return laws::hold(stage, stop.side,
+    return laws::hold(loop, stage, stop.side,
                       modes::upcoming(modes::release_turns(loop, stop), state.phase_turns, stage.end));
   }
 };
 
 /// A chatter that is summed but goes on beyond the end of the stage: its flights are flown until it is complete, or up
-/// to that end. A section neither begins a sum nor shows impacts of it.
+/// to that end. A section neither begins a sum nor shows impacts of it. With a loose mass none is summed.
 template <class Loop>
 struct InChatter {
   static constexpr Row row{"in chatter", "free, or that of the slip", "as before it", Search::gaps, "its end, in rest"};
-  static constexpr bool called_for = AtRest<Loop>::called_for;
+  static constexpr bool called_for = AtRest<Loop>::called_for && !Loop::effects.loose;
   using Number = typename Loop::Number;
   using State = motion::State<Number>;
   using Crossing = motion::Crossing<Number>;
@@ -80,7 +80,7 @@ struct InChatter {
         if (crossing.margin == 1) crossing.motion.v = 0;
         return crossing;
       }
-    return loop.method().fly(state, loop.motion(loop.constants(), state), anchor, horizon).crossing;
+    return loop.method().fly(loop.constants(), state, loop.motion(loop.constants(), state), anchor, horizon).crossing;
   }
 };
 

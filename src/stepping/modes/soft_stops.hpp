@@ -12,7 +12,7 @@ namespace clatter::stepping {
 template <class Loop>
 struct InContact {
   static constexpr Row row{"in contact", "with the soft stop", "its force", Search::margins, "separation"};
-  static constexpr bool called_for = Loop::effects.soft && !Loop::effects.loose;
+  static constexpr bool called_for = Loop::effects.soft;
   using Number = typename Loop::Number;
   using State = motion::State<Number>;
 

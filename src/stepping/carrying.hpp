@@ -1,0 +1,154 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "motion/walls.hpp"
+#include "stepping/integration.hpp"
+#include "stepping/main_mass.hpp"
+
+/// A main mass with a loose one: its housing, and both as one while a wall presses that.
+namespace clatter::stepping {
+
+/// A wall that presses a loose mass.
+template <class Number>
+struct Pressing {
+  Side wall;
+  Number load;  ///< y'' of the loose mass alone
+};
+
+/// The loop of a main mass that carries the loose one: modes take it in place of the loop.
+template <class Loop, class Mass>
+class Carrying {
+ public:
+  using Number = typename Loop::Number;
+  using State = motion::State<Number>;
+  static constexpr Effects effects = Mass::effects;
+  static constexpr bool carries = true;
+
+  Carrying(Loop& loop, const Mass& mass) : loop_(loop), mass_(mass) {}
+
+  [[nodiscard]] auto& method() const { return loop_.method(); }
+  [[nodiscard]] const auto& walls() const { return loop_.walls(); }
+  [[nodiscard]] bool loses() const { return loop_.loses(); }
+  [[nodiscard]] const auto& held_constants(bool with_loose) const { return loop_.held_constants(with_loose); }
+  [[nodiscard]] bool count_impact() const { return loop_.count_impact(); }
+  [[nodiscard]] static Outcome outcome_at(const motion::Crossing<Number>& crossing) {
+    return Loop::outcome_at(crossing);
+  }
+  [[nodiscard]] static bool finite(const Number& x) { return Loop::finite(x); }
+
+  [[nodiscard]] const auto& constants() const { return mass_.constants(); }
+  [[nodiscard]] const auto& stops() const { return mass_.stops(); }
+  [[nodiscard]] const auto& slips() const { return mass_.slips(); }
+  [[nodiscard]] const Number& period() const { return mass_.period(); }
+  [[nodiscard]] const Number& start_turns() const { return mass_.start_turns(); }
+  [[nodiscard]] bool has_soft_stops() const { return mass_.has_soft_stops(); }
+  [[nodiscard]] bool is_rough() const { return mass_.is_rough(); }
+  [[nodiscard]] auto phase(const State& state) const { return mass_.phase(state); }
+  [[nodiscard]] auto held(const State& state) const { return mass_.held(state); }
+  [[nodiscard]] auto holding_at(const State& state) const { return mass_.holding_at(state); }
+  [[nodiscard]] auto holding_stop(const State& state) const { return mass_.holding_stop(state); }
+  [[nodiscard]] Number anchor(const State& state) const { return mass_.anchor(state); }
+  [[nodiscard]] Number shortest_hop() const { return mass_.shortest_hop(); }
+  template <class Of>
+  [[nodiscard]] auto motion(const Of& constants, const State& state, const Number& released = Number(0)) const {
+    return mass_.motion(constants, state, released);
+  }
+  template <class Function>
+  decltype(auto) in_contact(Side side, Function&& function) const {
+    return mass_.in_contact(side, std::forward<Function>(function));
+  }
+
+ private:
+  Loop& loop_;
+  const Mass& mass_;
+};
+
+/// The main mass with a loose one that a wall presses: (1 + eps) times as heavy, and drawn by eps y'', too (eq. 71).
+/// Its damping is of a class of its own.
+template <class Number, Effects E>
+class CarryingMass {
+ public:
+  CarryingMass(const MainMass<Number, E>& alone, const BasicScene<Number>& scene) : of_(of(alone, scene)) {}
+
+  /// Calls `function(mass)`.
+  template <class Function>
+  decltype(auto) with_mass(Function&& function) const {
+    return std::visit(std::forward<Function>(function), of_);
+  }
+
+ private:
+  template <Damping damping, Forcing forcing>
+  [[nodiscard]] static constexpr Effects effects() {
+    Effects effects = E;
+    effects.damping = damping, effects.forcing = forcing;
+    return effects;
+  }
+  using Light = MainMass<Number, effects<Damping::light, Forcing::secular>()>;
+  using Heavy = MainMass<Number, effects<Damping::heavy, Forcing::regular>()>;
+  static constexpr bool rotates = E.damping == Damping::light;  ///< alone, and so with more mass
+  using Any = std::conditional_t<rotates, std::variant<Light>, std::variant<Light, Heavy>>;
+
+  [[nodiscard]] static Any of(const MainMass<Number, E>& alone, const BasicScene<Number>& scene) {
+    using std::sqrt;
+    const Number both = 1 + scene.loose.ratio, root = sqrt(both);
+    BasicStops<Number> stops = alone.stops();
+    stops.stiffness_lower /= both, stops.stiffness_upper /= both;
+    stops.damping_lower /= root, stops.damping_upper /= root;
+    const BasicFriction<Number> friction{scene.friction.kinetic / both, scene.friction.static_level / both};
+    const auto make = [&]<class Mass>() -> Any {
+      return Mass(motion::carrying<typename Mass::Constants>(alone.constants(), scene.loose), stops, friction,
+                  alone.start_turns());
+    };
+    if constexpr (!rotates)
+      if (!motion::rotates_carrying(alone.constants(), scene.loose)) return make.template operator()<Heavy>();
+    return make.template operator()<Light>();
+  }
+
+  Any of_;
+};
+
+/// The constants of a main mass that something holds: no force moves it.
+template <class Number>
+using HeldConstants =
+    motion::ArcConstants<Number, Effects{.damping = Damping::heavy, .forcing = Forcing::regular, .stiffness = true}>;
+
+/// The housing of a loose mass, and the main mass that carries it.
+template <class Number, Effects E>
+class Housing {
+ public:
+  Housing(const MainMass<Number, E>& alone, const BasicScene<Number>& scene)
+      : walls(scene.loose),
+        carrying(alone, scene),
+        loses(alone.loses() || walls.rule.loses()),
+        held_{unmoved(alone), unmoved(alone)} {
+    held_[1].carried = scene.loose.ratio;
+  }
+
+  /// Those of the main mass alone, and with the loose one, while something holds it.
+  [[nodiscard]] const HeldConstants<Number>& held(bool carries) const { return held_[carries ? 1 : 0]; }
+
+  motion::Walls<Number> walls;
+  CarryingMass<Number, E> carrying;
+  bool loses;  ///< impacts, or friction, take energy, so that chatter ends
+
+ private:
+  [[nodiscard]] static HeldConstants<Number> unmoved(const MainMass<Number, E>& alone) {
+    auto constants = HeldConstants<Number>::of(Number(0), Number(0), alone.constants().nu, Number(0), Number(0));
+    constants.period = alone.period();
+    return constants;
+  }
+
+  std::array<HeldConstants<Number>, 2> held_;
+};
+/// In place of it without a loose mass.
+struct NoHousing {
+  template <class Mass, class Scene>
+  NoHousing(const Mass&, const Scene&) {}
+};
+
+}  // namespace clatter::stepping
