@@ -14,7 +14,8 @@ import numpy as np
 
 from derivatives import OF_MACHINE, OF_SCENE, PERIODIC, RESULTS_IN_HOUSING, SETTLE, SIDES, STARTS, Family, OfScenes
 from derivatives import by_each, derivative, families
-from loose_mass_test import ATTRACTING, LooseMass, mirrored, symmetric
+from loose_mass_relations_test import mirrored
+from loose_mass_test import ATTRACTING, LooseMass, symmetric
 from random_scenes import logarithmic
 from scene_runs import STEADY
 
