@@ -68,7 +68,7 @@ struct Event {
   [[nodiscard]] Event in_housing() const {
     Event same = *this;
     if (kind == Kind::strike) same.kind = Kind::impact;
-    if (kind == Kind::hold) same.kind = Kind::rest;
+    if (kind == Kind::hold) same.kind = Kind::rest, same.has_arc = false;  // the arc is that of the main mass
     return same;
   }
   /// A strike as the impact of the main mass that it is. Others are as they are.
