@@ -13,10 +13,11 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   properties   the laws that every motion obeys, on COUNT random scenes        (default 1000000; about 10 ms each)
   shortcuts    COUNT steady scenes with every shortcut and with none           (default 10000; about 0.1 s each)
   soft         COUNT scenes with soft stops against 50 digits and a general solver (default 100000; about 0.1 s each)
-  slides       COUNT scenes with dry friction, event by event, against Taylor series (default 10000; about 30 ms each)
-  carried      COUNT scenes with a loose mass, event by event, against Taylor series (default 10000; about 60 ms each)
-  machines     COUNT scenes with stops and friction, with a loose mass, and with all of them at once, against Taylor
-               series in 113 bits (default 1000; about 0.5 s each)
+  slides       COUNT scenes with dry friction, event by event, against Taylor series in 113 bits
+               (default 3000; about 0.2 s each)
+  carried      the same with a loose mass (default 2000; about 0.3 s each)
+  machines     COUNT scenes with stops, friction and a loose mass at once against the same series (default 1000;
+               about 1 s each)
   attractors   the motions of COUNT scenes, numbered and told apart by long runs (default 1000; about 0.5 s each)
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
   kills        COUNT runs killed, each sweep again and again until it is done  (default 1000; about 0.5 s each)
@@ -49,8 +50,8 @@ case "${1-}" in
   shortcuts) filter='Attractors.no_shortcut*' count=10000 ;;
   attractors) filter='BruteForce.*' count=1000 tests=attractors_tests ;;
   soft) filter='SoftStops.random*:SoftStops.no_contact*' count=100000 tests=stepping_tests ;;
-  slides) filter='SlidingScenes.*' count=10000 ;;
-  carried) filter='CarryingScenes.*' count=10000 ;;
+  slides) filter='SlidingScenes.*' count=3000 ;;
+  carried) filter='CarryingScenes.*' count=2000 ;;
   machines) filter='Machines.*' count=1000 ;;
   drift) filter='Long.conservative*' count=100000000 ;;
   kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=1000 ;;

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "hard/any_scene.hpp"
-#include "hard/carry.hpp"
 #include "hard/tally.hpp"
 
 namespace clatter::hard {
@@ -87,27 +86,5 @@ inline void make_special(support::Random& random, Scene& scene) {
   any.scene.time.duration = any.duration;
   return any;
 }
-
-/// The numbers of such a scene for the simulator.
-[[nodiscard]] inline CarryScene as_carry_scene(const Scene& scene) {
-  const auto& [o, stops, start, shaking, friction, loose] = scene;
-  return {.damping = o.damping,
-          .stiffness = o.stiffness,
-          .forcing = o.forcing,
-          .frequency = o.frequency,
-          .phase = start.phase,
-          .load = o.load,
-          .loose_mass = loose.ratio,
-          .lower = loose.lower,
-          .upper = loose.upper,
-          .restitution = loose.restitution_lower,
-          .loose_load = loose.load,
-          .x = start.displacement,
-          .v = start.velocity,
-          .z = loose.place,
-          .w = loose.velocity};
-}
-
-inline constexpr Kind carrying{"carrying", any_carrying_scene, 300};
 
 }  // namespace clatter::hard

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+
+#include "hard/any_scene.hpp"
 #include "hard/machine.hpp"
 #include "scene/scene.hpp"
 
@@ -34,6 +37,32 @@ namespace clatter::hard {
           .v = start.velocity,
           .z = loose.place,
           .w = loose.velocity};
+}
+
+/// The same with each input moved by some roundings, z by those of y, and a mass with the stop or wall that it starts
+/// on. Signs are drawn, but friction rises against the force or falls.
+[[nodiscard]] inline MachineScene moved(const AnyScene& any, std::uint64_t way, double roundings,
+                                        double roundings_of_phase) {
+  support::Random random(20611, 8 * any.index + way);
+  const MachineScene given = as_machine(any.scene);
+  MachineScene s = given;
+  const auto nudge = [&](double& value) { value *= 1 + random.sign() * roundings * epsilon<double>(); };
+  for (double* value : {&s.damping, &s.stiffness, &s.forcing, &s.frequency, &s.load, &s.lower, &s.upper, &s.kappa_lower,
+                        &s.kappa_upper, &s.zeta_lower, &s.zeta_upper, &s.loose_mass, &s.wall_lower, &s.wall_upper,
+                        &s.loose_load, &s.x, &s.v, &s.z, &s.w})
+    nudge(*value);
+  for (double* R : {&s.restitution_lower, &s.restitution_upper, &s.wall_R_lower, &s.wall_R_upper})
+    nudge(*R), *R = std::min(1.0, *R);
+  s.phase += random.sign() * roundings_of_phase * epsilon<double>();
+  const double rise = (way % 2 == 0 ? 1 : -1) * roundings * epsilon<double>();
+  if (given.static_friction > 0) s.forcing = given.forcing * (1 - rise);
+  s.friction *= 1 + rise, s.static_friction *= 1 + rise;
+  s.z = std::clamp(s.z + random.sign() * roundings / 2 * epsilon<double>() * given.x, s.wall_lower, s.wall_upper);
+  if (given.z == given.wall_lower) s.z = s.wall_lower;
+  if (given.z == given.wall_upper) s.z = s.wall_upper;
+  if (given.x == given.lower) s.x = s.lower;
+  if (given.x == given.upper) s.x = s.upper;
+  return s;
 }
 
 }  // namespace clatter::hard

@@ -6,8 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "hard/slide.hpp"
-#include "hard/slide_match.hpp"
+#include "hard/as_machine.hpp"
+#include "hard/event_match.hpp"
+#include "hard/machine.hpp"
 #include "point/exact_motion.hpp"
 
 namespace clatter::hard::friction_edges_test {
@@ -25,12 +26,12 @@ struct Told {
     recorder.keep_events();
     end = motion->start();
     outcome = motion->run_for(end, duration / motion->period(), recorder);
-    events = as_slide_events(recorder.events);
+    events = told_events(recorder.events);
   }
 
   motion::State<double> end{};
   stepping::Outcome outcome{};
-  std::vector<SlideEvent> events{};
+  std::vector<ToldEvent> events{};
 };
 
 /// Heavy damping and no force: the mass comes ever closer to the edge of the places at which friction holds it, free or
@@ -58,11 +59,11 @@ TEST(FrictionEdges, a_reversal_at_a_section_is_told) {
                     {0, 0.0033766245}};
   const double period = period_of(scene.oscillator);
   const Told told(scene, 3.3 * period);
-  const SlideRun expected = slide(scene, 3.3 * period);
-  ASSERT_EQ(told.events.size(), expected.events.size());
+  const auto expected = told_events(run_machine(as_machine(scene), 3.3 * period, 100));
+  ASSERT_EQ(told.events.size(), expected.size());
   for (std::size_t i = 0; i < told.events.size(); ++i) {
-    EXPECT_EQ(told.events[i].kind, SlideEvent::Kind::reversal);
-    EXPECT_NEAR(static_cast<double>(told.events[i].time), static_cast<double>(expected.events[i].time), 1e-14 * 4);
+    EXPECT_EQ(told.events[i].kind, ToldEvent::Kind::reversal);
+    EXPECT_NEAR(static_cast<double>(told.events[i].time), static_cast<double>(expected[i].time), 1e-14 * 4);
   }
 }
 

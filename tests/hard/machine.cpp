@@ -27,6 +27,7 @@ class Machine {
     std::size_t idle = 0;
     for (std::size_t steps = 0; steps < most_steps && idle < most_idle; ++steps) {
       settle(most_impacts);
+      if (steps == 0) run_.struck = 0, run_.stored = -energy();
       if (run_.impacts > most_impacts) break;
       change_to(chosen_mode());
       run_.finished = !(m_.time < end_);
@@ -35,8 +36,8 @@ class Machine {
       go();
       idle = m_.time > before ? 0 : idle + 1;
     }
-    run_.x = to_long(m_.anchor + m_.q), run_.v = to_long(m_.v);
-    run_.z = to_long(m_.wall_anchor + m_.r), run_.w = to_long(m_.w);
+    run_.time = to_long(m_.time), run_.fastest = to_long(fastest_), run_.stored += energy();
+    run_.x = to_long(m_.x()), run_.v = to_long(m_.v), run_.z = to_long(m_.z()), run_.w = to_long(m_.w);
     return std::move(run_);
   }
 
@@ -44,10 +45,15 @@ class Machine {
   static constexpr std::size_t most_steps = 50'000'000, most_idle = 10'000;
 
   [[nodiscard]] static long double to_long(Quad value) { return static_cast<long double>(value); }
-  void tell(Kind kind, int side, Quad before, Quad after) {
-    run_.events.push_back({kind, side, to_long(m_.time), to_long(before), to_long(after)});
+  [[nodiscard]] long double energy() const {
+    const Quad mass = m_.scene.loose_mass, y_speed = m_.v + m_.w;
+    return to_long((m_.v * m_.v + m_.scene.stiffness * m_.x() * m_.x() + mass * y_speed * y_speed) / 2);
   }
-  void tell(Kind kind, int side) { tell(kind, side, m_.v, m_.v); }
+  void tell(Kind kind, int side, Quad before, Quad after, Quad main_before, Quad pull = 0) {
+    run_.events.push_back({kind, side, to_long(m_.time), to_long(before), to_long(after), to_long(m_.x()),
+                           to_long(main_before), to_long(m_.v), to_long(pull)});
+  }
+  void tell(Kind kind, int side, Quad pull = 0) { tell(kind, side, m_.v, m_.v, m_.v, pull); }
   /// Takes a margin in parts of the largest.
   void note(Quad margin, Quad largest) {
     if (largest > 0) run_.closest = std::min(run_.closest, to_long(size_of(margin) / largest));
@@ -79,10 +85,14 @@ class Machine {
   void change_to(const Mode& mode) {
     const int on = m_.is_on_rigid(1) ? 1 : m_.is_on_rigid(-1) ? -1 : 0;
     if (mode_.held && !mode.held) tell(held_on_ != 0 ? Kind::rest_end : Kind::stick_end, held_on_);
-    if (!mode_.held && mode.held) tell(on != 0 ? Kind::rest : Kind::stick, on), held_on_ = on;
-    if (is_turning_ && !mode.held) tell(Kind::reversal, 0);
+    const Quad braked = is_turning_ ? m_.acceleration(mode_.slip) : 0;
+    if (!mode_.held && mode.held) tell(on != 0 ? Kind::rest : Kind::stick, on, braked), held_on_ = on;
+    if (is_turning_ && !mode.held) tell(Kind::reversal, 0, braked);
     if (mode_.pressed != 0 && mode.pressed != mode_.pressed) tell(Kind::release, mode_.pressed);
-    if (mode.pressed != 0 && mode.pressed != mode_.pressed) tell(Kind::press, mode.pressed);
+    if (mode.pressed != 0 && mode.pressed != mode_.pressed) {
+      const Quad away = m_.scene.loose_load - (mode.held ? 0 : m_.acceleration(mode.slip));
+      tell(Kind::press, mode.pressed, mode.pressed * away);
+    }
     mode_ = mode;
     is_fresh_ = is_turning_ = false;
   }
@@ -113,17 +123,24 @@ class Machine {
     const bool on_both = (m_.is_on_rigid(1) || m_.is_on_rigid(-1)) && (m_.is_on_wall(1) || m_.is_on_wall(-1));
     if (on_both && is_slow(size_of(m_.v), 0) && is_slow(size_of(m_.w), 0)) m_.v = m_.w = 0;
   }
-  void take_speeds() { fastest_ = std::max({fastest_, size_of(m_.v), m_.has_loose ? size_of(m_.w) : Quad(0)}); }
+  [[nodiscard]] static std::size_t place_of(const Guard& guard) {
+    return 2 * static_cast<std::size_t>(guard.of) + (guard.side > 0);
+  }
+  void take_speeds() {
+    fastest_ = std::max({fastest_, size_of(m_.v), m_.has_loose ? size_of(m_.w) : Quad(0)});
+    run_.of_x.take(to_long(m_.x())), run_.of_z.take(to_long(m_.z())), run_.of_y.take(to_long(m_.x() + m_.z()));
+  }
   /// Whether nothing can tell a rebound from rest.
   [[nodiscard]] bool is_slow(Quad speed, Quad back) const {
-    return speed <= Quad(1e-26) * fastest_ || 2 * speed < Quad(1e-27) * back;
+    return speed <= Quad(m_.scene.still) * fastest_ || 2 * speed < Quad(1e-27) * back;
   }
   void strike_stop(int side) {
     const Quad before = m_.v;
     m_.v *= -m_.stop(side).restitution;
     if (is_slow(size_of(m_.v), side * m_.acceleration(-side))) m_.v = 0;
     if (m_.has_loose) m_.w += before - m_.v;
-    tell(Kind::stop_impact, side, before, m_.v);
+    run_.struck += to_long((before * before - m_.v * m_.v) / 2);
+    tell(Kind::stop_impact, side, before, m_.v, before);
   }
   void strike_wall(int side) {
     const Quad before = m_.w, share = Quad(m_.scene.loose_mass) / (1 + Quad(m_.scene.loose_mass)), v = m_.v;
@@ -132,7 +149,8 @@ class Machine {
       const Quad back = side * (m_.scene.loose_load - m_.acceleration(m_.v > 0 ? 1 : m_.v < 0 ? -1 : 0));
       if (!is_slow(size_of(m_.w), back)) break;
     }
-    tell(Kind::wall_impact, side, before, m_.w);
+    run_.struck += to_long(share * (before * before - m_.w * m_.w) / 2);
+    tell(Kind::wall_impact, side, before, m_.w, v);
   }
 
   // One step.
@@ -148,43 +166,66 @@ class Machine {
       falls.push_back(first_fall(guard.p));
       if (falls.back() && (!first || *falls.back() < *first)) first = falls.back();
     }
-    const Quad u = first.value_or(1), same = Quad(1e-30) * std::max(Quad(1), m_.time);
+    Quad u = first.value_or(1);
+    const Quad same = Quad(1e-30) * std::max(Quad(1), m_.time);
     for (const Guard& guard : rows) watch(guard, u, step);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (first && falls[i] == *first) u = *first + late(rows[i], *first);
     pass(x, r, step, u);
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (falls[i] && (*falls[i] - u) * step <= same) conclude(rows[i], u > 0, step);
   }
+  /// The part of a step by which rounding delays what a guard tells.
+  [[nodiscard]] Quad late(const Guard& guard, Quad u) const {
+    if (m_.scene.rounding == 0 || guard.of == Guard::Of::still) return 0;
+    const Quad own = m_.scene.rounding * (guard.level == 2 ? size_of(m_.x()) : guard.size);
+    const Quad off = std::min(own, Quad(1e-6) * watches_[place_of(guard)].high);
+    return off == 0 ? 0 : std::min({off / size_of(jet(guard.p, u).second), Quad(1e-6) * u, 1 - u});
+  }
   void pass(const Series& x, const Series& r, Quad step, Quad u) {
     if (u == 0) return;
+    const Quad x_before = m_.x(), x_anchor = m_.anchor;
+    const double h = m_.scene.damping;
+    if (h != 0) run_.damped += 2 * h * integral_of_square(slope_of(x), u) / to_long(step);
     const auto [q, slope] = jet(x, u);
     m_.q = q, m_.v = mode_.held ? 0 : slope / step;
     if (mode_.pressed == 0 && m_.has_loose) {
       const auto [place, speed] = jet(r, u);
       m_.r = place, m_.w = speed / step;
     }
+    take_turns(run_.of_x, x_anchor, x, u), take_turns(run_.of_z, m_.wall_anchor, r, u);
+    if (m_.has_loose) take_turns(run_.of_y, x_anchor + m_.wall_anchor, sum_of(x, r), u);
+    run_.rubbed += m_.scene.friction * to_long(size_of(m_.x() - x_before));
     m_.time = u == 1 && step == end_ - m_.time ? end_ : m_.time + u * step;
+  }
+  /// Takes the values of a quantity at all zeros of its slope before an end.
+  static void take_turns(Range& range, Quad anchor, const Series& p, Quad end) {
+    Series slope = slope_of(p);
+    const auto first = std::find_if(slope.begin(), slope.end(), [](Quad term) { return term != 0; });
+    if (first != slope.end() && *first < 0) slope = negative(slope);
+    Quad at = 0;
+    for (auto u = first_fall(slope); u && at + *u < end; u = first_fall(slope)) {
+      at += *u;
+      range.take(to_long(anchor + jet(p, at).first));
+      slope = negative(about(slope, *u)), slope[0] = 0;
+    }
   }
   /// Notes how near a guard comes to 0 without falling to it: at a zero of its slope, or where that jumps.
   void watch(const Guard& guard, Quad u, Quad step) {
-    Watch& seen = watches_[2 * static_cast<std::size_t>(guard.of) + (guard.side > 0)];
+    Watch& seen = watches_[place_of(guard)];
     const auto [value, slope] = jet(guard.p, u);
     const bool goes_on = seen.until == m_.time;
     seen.high = std::max({seen.high, size_of(guard.p[0]), size_of(value)});
     seen.fast = std::max({seen.fast, size_of(guard.p[1] / step), size_of(slope / step)});
     if (goes_on && seen.last_slope < 0 && guard.p[1] > 0) note(guard.p[0], seen.high);
     if (guard.p[1] < 0 && slope > 0) {
-      Quad low = 0, high = u;
-      for (int i = 0; i < 60; ++i) {
-        const Quad middle = (low + high) / 2;
-        (jet(guard.p, middle).second < 0 ? low : high) = middle;
-      }
-      note(jet(guard.p, high).first, seen.high);
+      note(jet(guard.p, refined(negative(slope_of(guard.p)), 0, u)).first, seen.high);
     }
     seen.last_slope = slope, seen.until = m_.time + u * step;
   }
   /// What happens when a guard has fallen to 0.
   void conclude(const Guard& guard, bool has_moved, Quad step) {
-    Watch& seen = watches_[2 * static_cast<std::size_t>(guard.of) + (guard.side > 0)];
+    Watch& seen = watches_[place_of(guard)];
     if (has_moved) note(seen.last_slope / step, seen.fast);
     seen = {};
     switch (guard.of) {
@@ -195,6 +236,7 @@ class Machine {
         return;
       case Guard::Of::still:
         m_.v = 0, is_fresh_ = is_turning_ = true;
+        m_.q += std::min(m_.scene.rounding * size_of(m_.x()), Quad(1e-6) * size_of(m_.q));
         return;
       case Guard::Of::force_gone:
         return separate();

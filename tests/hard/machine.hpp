@@ -23,9 +23,13 @@ struct MachineScene {
   double wall_lower = -no_stop, wall_upper = no_stop;
   double wall_R_lower = 1, wall_R_upper = 1;
   double loose_load = 0;
-  double x = 0, v = 0;  ///< of the main mass at the start
-  double z = 0, w = 0;  ///< of the loose mass at the start, as seen from the main one
-  double step = 0.1;    ///< the longest of a Taylor step, times the fastest rate of the motion
+  double x = 0, v = 0;   ///< of the main mass at the start
+  double z = 0, w = 0;   ///< of the loose mass at the start, as seen from the main one
+  double step = 0.5;     ///< the longest of a Taylor step, times the fastest rate: the terms left out are below 1e-37
+  double still = 1e-26;  ///< a rebound with less of the fastest speed is the last one
+  /// Lets each impact come late by so many parts of x, each release by as many of the forces, and moves each place at
+  /// which the velocity falls to 0, but by a millionth of the way before at most: the effect of a coarser arithmetic.
+  double rounding = 0;
 };
 
 /// What happens at an instant.
@@ -46,15 +50,31 @@ struct MachineEvent {
     leave,       ///< the main mass comes back over the place of a soft stop that has no force
   };
   Kind kind;
-  int side;                   ///< 1: the upper stop or wall, -1: the lower one, 0: none
-  long double time;           ///< tau
-  long double before, after;  ///< z' of an impact on a wall, x' otherwise
+  int side;                             ///< 1: the upper stop or wall, -1: the lower one, 0: none
+  long double time;                     ///< tau
+  long double before, after;            ///< z' of an impact on a wall, x' otherwise
+  long double place;                    ///< x
+  long double main_before, main_after;  ///< x'
+  long double pull;  ///< x'' at the end of a slip; z'' with which the loose mass is pressed; 0 of others
+};
+
+/// The least and the greatest of a quantity.
+struct Range {
+  long double least = std::numeric_limits<long double>::infinity(), greatest = -least;
+  void take(long double value) {
+    if (value < least) least = value;
+    if (value > greatest) greatest = value;
+  }
 };
 
 /// A motion from its start.
 struct MachineRun {
   std::vector<MachineEvent> events{};
-  long double x = 0, v = 0, z = 0, w = 0;  ///< at the end
+  long double time = 0, x = 0, v = 0, z = 0, w = 0;  ///< at the end
+  Range of_x{}, of_y{}, of_z{};
+  long double fastest = 0;  ///< the largest |x'| or |z'| at the beginning or the end of a Taylor step
+  long double damped = 0, struck = 0, rubbed = 0;  ///< energy lost to h, in impacts after the start, to friction
+  long double stored = 0;  ///< energy of both masses and the spring at the end, less that after an impact at the start
   /// How near the run was to another course: the least of the speed of a contact, the clearance of a near miss, and
   /// the margin by which a mass was held or let go, each as part of the largest since the last such event.
   long double closest = 1;
@@ -63,8 +83,8 @@ struct MachineRun {
 };
 
 /// Simulates a scene by Taylor series in 113 bits. It shares nothing with the program: no closed form, no root finder,
-/// no sum over chatter. Impacts are followed one by one until a rebound has less than 1e-26 of the fastest speed or
-/// takes less than 1e-27 of the unit of time.
+/// no sum over chatter. Impacts are followed one by one until a rebound is still or takes less than 1e-27 of the
+/// unit of time.
 [[nodiscard]] MachineRun run_machine(const MachineScene& scene, double duration, std::size_t most_impacts);
 
 }  // namespace clatter::hard

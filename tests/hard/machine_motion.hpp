@@ -71,7 +71,8 @@ struct Motion {
     if (!has_loose) walls[0].exists = walls[1].exists = false;
     for (const int side : {-1, 1})
       if (stop(side).exists && stop(side).is_soft && side * (anchor - stop(side).place) > 0)
-        q = anchor - stop(side).place, anchor = stop(side).place, around = side, has_force = true;
+        q = anchor - stop(side).place, anchor = stop(side).place, around = side,
+        has_force = side * (stop(side).kappa * q + stop(side).damper * v) > 0;
   }
 
   [[nodiscard]] const Contact& stop(int side) const { return stops[side > 0]; }
@@ -82,6 +83,8 @@ struct Motion {
   [[nodiscard]] bool is_on_wall(int side) const {
     return wall(side).exists && r == 0 && wall_anchor == wall(side).place;
   }
+  [[nodiscard]] Quad x() const { return anchor + q; }
+  [[nodiscard]] Quad z() const { return wall_anchor + r; }
   [[nodiscard]] Quad kappa() const { return has_force ? stop(around).kappa : 0; }
   [[nodiscard]] Quad damper() const { return has_force ? stop(around).damper : 0; }
   [[nodiscard]] Quad stiffness() const { return scene.stiffness + kappa(); }
@@ -99,9 +102,12 @@ struct Motion {
       force[n] = factor * derivatives[n % 4];
       factor *= scene.frequency * step / number(n + 1);
     }
-    force[0] += scene.load - scene.stiffness * anchor - mode.slip * Quad(scene.friction);
-    if (mode.pressed != 0) force[0] += Quad(scene.loose_mass) * scene.loose_load;
+    force[0] += constant_push(mode);
     return force;
+  }
+  [[nodiscard]] Quad constant_push(const Mode& mode) const {
+    const Quad loose = mode.pressed != 0 ? Quad(scene.loose_mass) * scene.loose_load : 0;
+    return scene.load - scene.stiffness * anchor - mode.slip * Quad(scene.friction) + loose;
   }
   /// The sum of the sizes of all forces.
   [[nodiscard]] Quad force_size() const {
@@ -111,7 +117,8 @@ struct Motion {
   }
   /// Of the main mass, alone.
   [[nodiscard]] Quad acceleration(int slip) const {
-    return push({false, slip, 0}, 1)[0] - stiffness() * q - twice_damping() * v;
+    const Quad forced = scene.forcing * sinq(Quad(scene.frequency) * time + scene.phase);
+    return forced + constant_push({false, slip, 0}) - stiffness() * q - twice_damping() * v;
   }
 
   // The motion in a mode.

@@ -19,54 +19,110 @@ extern "C" {
 // Polynomials of a step's part u, 0 ... 1.
 
 inline constexpr std::size_t terms = 28;
-inline constexpr Quad rounding = Quad(0x1p-112);
-using Series = std::array<Quad, terms>;
+template <class Real>
+using SeriesOf = std::array<Real, terms>;
+using Series = SeriesOf<Quad>;
 
 [[nodiscard]] inline Quad number(std::size_t n) { return static_cast<Quad>(n); }
 [[nodiscard]] inline Quad size_of(Quad value) { return value < 0 ? -value : value; }
 
+/// In fewer digits, which take less time.
+[[nodiscard]] inline SeriesOf<long double> rounded(const Series& p) {
+  SeriesOf<long double> q{};
+  for (std::size_t n = 0; n < terms; ++n) q[n] = static_cast<long double>(p[n]);
+  return q;
+}
+
 /// Value and slope.
-[[nodiscard]] inline std::pair<Quad, Quad> jet(const Series& p, Quad u) {
-  Quad value = 0, slope = 0;
+template <class Real>
+[[nodiscard]] std::pair<Real, Real> jet(const SeriesOf<Real>& p, Real u) {
+  Real value = 0, slope = 0;
   for (std::size_t k = terms; k-- > 0;) slope = slope * u + value, value = value * u + p[k];
   return {value, slope};
 }
 
-/// The only zero between a place where p is above 0 and one where it isn't, by Newton's steps that stay in between.
-[[nodiscard]] inline Quad refined(const Series& p, Quad low, Quad high) {
-  Quad u = (low + high) / 2;
-  for (int i = 0; i < 400; ++i) {
+[[nodiscard]] inline Series slope_of(const Series& p) {
+  Series slope{};
+  for (std::size_t n = 0; n + 1 < terms; ++n) slope[n] = number(n + 1) * p[n + 1];
+  return slope;
+}
+[[nodiscard]] inline Series sum_of(Series p, const Series& other) {
+  for (std::size_t n = 0; n < terms; ++n) p[n] += other[n];
+  return p;
+}
+[[nodiscard]] inline Series negative(Series p) {
+  for (Quad& term : p) term = -term;
+  return p;
+}
+/// The same polynomial by powers of the distance from u.
+[[nodiscard]] inline Series about(Series p, Quad u) {
+  for (std::size_t from = 0; from + 1 < terms; ++from)
+    for (std::size_t n = terms - 1; n-- > from;) p[n] += u * p[n + 1];
+  return p;
+}
+/// Over 0 ... u, in long double.
+[[nodiscard]] inline long double integral_of_square(const Series& p, Quad u) {
+  SeriesOf<long double> a{};
+  Quad power = 1;
+  for (std::size_t n = 0; n < terms; ++n) a[n] = static_cast<long double>(p[n] * power), power *= u;
+  long double sum = 0;
+  for (std::size_t degree = 2 * terms - 1; degree-- > 0;) {
+    long double term = 0;
+    for (std::size_t i = degree < terms ? 0 : degree - terms + 1; i < terms && i <= degree; ++i)
+      term += a[i] * a[degree - i];
+    sum += term / static_cast<long double>(degree + 1);
+  }
+  return sum * static_cast<long double>(u);
+}
+
+/// The only zero between a place where p is above 0 and one where it isn't, by Newton's steps that stay between these.
+/// One as small as `close` is the last: each has about twice the digits of the one before.
+template <class Real>
+[[nodiscard]] Real refined(const SeriesOf<Real>& p, Real low, Real high, Real u, Real close) {
+  for (int i = 0; i < 400 && u > low && u < high; ++i) {
     const auto [value, slope] = jet(p, u);
     (value > 0 ? low : high) = u;
-    const Quad newton = slope < 0 ? u - value / slope : low;
-    const Quad next = i < 40 && newton > low && newton < high ? newton : (low + high) / 2;
-    if (size_of(next - u) <= rounding * u) return next;
-    u = next;
+    const Real newton = slope < 0 ? u - value / slope : low, off = newton - u;
+    if (slope < 0 && off <= close * u && -off <= close * u) return newton;
+    u = i < 40 && newton > low && newton < high ? newton : (low + high) / 2;
   }
   return u;
 }
+[[nodiscard]] inline Quad refined(const Series& p, Quad low, Quad high) {
+  const auto from = static_cast<long double>(low), to = static_cast<long double>(high);
+  const Quad near = refined<long double>(rounded(p), from, to, (from + to) / 2, 0x1p-40L);
+  return refined<Quad>(p, low, high, near > low && near < high ? near : (low + high) / 2, Quad(0x1p-80));
+}
 
 /// The Bernstein coefficients of a polynomial on 0 ... 1.
-[[nodiscard]] inline Series bernstein(const Series& p) {
+template <class Real>
+[[nodiscard]] SeriesOf<Real> bernstein(const SeriesOf<Real>& p) {
   static const auto shares = [] {
-    std::array<Series, terms> table{};  // binomials (j, i)/(n, i)
+    std::array<SeriesOf<Real>, terms> table{};  // binomials (j, i)/(n, i)
     for (std::size_t j = 0; j < terms; ++j) {
       table[j][0] = 1;
-      for (std::size_t i = 1; i <= j; ++i) table[j][i] = table[j][i - 1] * number(j + 1 - i) / number(terms - i);
+      for (std::size_t i = 1; i <= j; ++i)
+        table[j][i] = table[j][i - 1] * static_cast<Real>(j + 1 - i) / static_cast<Real>(terms - i);
     }
     return table;
   }();
-  Series b{};
+  SeriesOf<Real> b{};
   for (std::size_t j = 0; j < terms; ++j)
     for (std::size_t i = 0; i <= j; ++i) b[j] += shares[j][i] * p[i];
   return b;
 }
 
+template <class Real>
+[[nodiscard]] std::size_t changes_of(const SeriesOf<Real>& b) {
+  std::size_t changes = 0;
+  for (std::size_t j = 1; j < terms; ++j) changes += (b[j] > 0) != (b[j - 1] > 0);
+  return changes;
+}
+
 /// The first fall to 0 within a part of the step, from the Bernstein coefficients there: no change of sign proves that
 /// there is none, one that there is one. A graze within rounding is none.
 [[nodiscard]] inline std::optional<Quad> fall_within(const Series& p, Series b, Quad low, Quad high) {
-  std::size_t changes = 0;
-  for (std::size_t j = 1; j < terms; ++j) changes += (b[j] > 0) != (b[j - 1] > 0);
+  const std::size_t changes = changes_of(b);
   if (!(b[0] > 0)) return low;
   if (changes == 0) return std::nullopt;
   if (changes == 1) return refined(p, low, high);
@@ -89,7 +145,13 @@ using Series = std::array<Quad, terms>;
   if (p[0] < 0) return Quad(0);
   Quad others = 0;
   for (std::size_t k = 1; k < terms; ++k) others += size_of(p[k]);
-  return p[0] > others ? std::nullopt : fall_within(p, bernstein(p), 0, 1);
+  if (p[0] > others) return std::nullopt;
+  const SeriesOf<long double> b = bernstein(rounded(p));
+  const auto unsure = static_cast<long double>(Quad(1e-16) * (others + p[0]));
+  const bool is_sure = std::all_of(b.begin(), b.end(), [&](long double c) { return c > unsure || c < -unsure; });
+  if (is_sure && changes_of(b) == 0) return std::nullopt;
+  if (is_sure && changes_of(b) == 1) return refined(p, 0, 1);
+  return fall_within(p, bernstein(p), 0, 1);
 }
 
 }  // namespace clatter::hard::machine
