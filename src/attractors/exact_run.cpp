@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "observables/stability/multipliers.hpp"
+#include "motion/linear_maps.hpp"
 #include "point/exact_motion.hpp"
 #include "steady/contact_at_section.hpp"
 #include "steady/contraction.hpp"
@@ -36,29 +36,6 @@ class Repeats {
   steady::RepeatFinder of_mass_;
   steady::BasicRepeatFinder<3> of_both_;
 };
-
-/// The solution of (1 - map) step = gap by elimination; not finite if there is none.
-std::array<double, 4> solved(const motion::LooseJacobian& map, std::array<double, 4> gap) {
-  std::array<std::array<double, 4>, 4> left{};
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 4; ++k) left[i][k] = (i == k ? 1.0 : 0.0) - map[i][k];
-  for (std::size_t i = 0; i < 4; ++i) {
-    std::size_t pivot = i;
-    for (std::size_t row = i + 1; row < 4; ++row)
-      if (std::abs(left[row][i]) > std::abs(left[pivot][i])) pivot = row;
-    std::swap(left[i], left[pivot]), std::swap(gap[i], gap[pivot]);
-    for (std::size_t row = i + 1; row < 4; ++row) {
-      const double factor = left[row][i] / left[i][i];
-      for (std::size_t k = i; k < 4; ++k) left[row][k] -= factor * left[i][k];
-      gap[row] -= factor * gap[i];
-    }
-  }
-  for (std::size_t i = 4; i-- > 0;) {
-    for (std::size_t k = i + 1; k < 4; ++k) gap[i] -= left[i][k] * gap[k];
-    gap[i] /= left[i][i];
-  }
-  return gap;
-}
 
 /// Adds the contacts of a round over a time in tau.
 void add_contacts(const std::vector<Event>& events, double total, Round& round) {
@@ -119,14 +96,14 @@ SectionState newton_step(const Round& round) {
     return {step.x, step.v};
   }
   const SectionState gap = round.gap();
-  const std::array<double, 4> step = solved(*round.derivative, {gap.x, gap.v, gap.x + gap.z, gap.v + gap.w});
+  const auto step = motion::change_of_fixed_point(*round.derivative, {gap.x, gap.v, gap.x + gap.z, gap.v + gap.w});
   const motion::LooseState<double>& loose = round.orbit.states[round.orbit.periods].loose;
   if (loose.pressed) return {step[0], step[1], gap.z, gap.w};  // it stays on its wall
   return {step[0], step[1], step[2] - step[0], step[3] - step[1]};
 }
 
 double spectral_radius(const Round& round) {
-  return round.derivative ? std::abs(observables::multipliers_of(*round.derivative)[0])
+  return round.derivative ? std::abs(motion::multipliers_of(*round.derivative)[0])
                           : steady::spectral_radius(round.orbit.derivative());
 }
 

@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "branches/equations/linear_system.hpp"
-#include "observables/stability/multipliers.hpp"
+#include "motion/linear_maps.hpp"
 
 namespace clatter::certificates {
 namespace {
@@ -133,7 +133,7 @@ std::vector<ClaimedMultiplier> HousingBounds::claimed_multipliers(const Recorded
         const bool up = (static_cast<unsigned>(change) * 0x9e3779b9u >> (4 * i + j)) % 2 == 0;
         map[i][j] = motion.derivative[4 * i + j] + (up ? off : -off);
       }
-    const auto others = observables::multipliers_of(map);
+    const auto others = motion::multipliers_of(map);
     for (std::size_t i = 0; i < rows; ++i) {
       const std::complex<double> own(claims[i].re, claims[i].im);
       const auto distance = [&](const std::complex<double>& other) { return std::abs(other - own); };

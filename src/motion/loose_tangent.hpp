@@ -6,14 +6,12 @@
 #include <cstddef>
 
 #include "motion/event.hpp"
+#include "motion/linear_maps.hpp"
 #include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
 #include "motion/walls.hpp"
 
 namespace clatter::motion {
-
-/// A linear map of small changes (dx, dx', dy, dy'), by rows.
-using LooseJacobian = std::array<std::array<double, 4>, 4>;
 
 /// The derivative of a motion with a loose mass with respect to its start: free motion of both masses over the arcs,
 /// and at each event S = D + (f+ - D f-) grad g / (grad g . f-), with the flows f- and f+ before and after it, the
@@ -81,7 +79,7 @@ class LooseTangent {
   [[nodiscard]] bool loses_two() const { return loses_two_; }
 
  private:
-  using Row = std::array<double, 4>;
+  using Row = Four<double>;
   static constexpr LooseJacobian identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
   /// The acceleration of the main mass at a place and a velocity, where the last arc ends.

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "motion/arc_constants.hpp"
+#include "motion/linear_maps.hpp"
 #include "motion/state.hpp"
 #include "scene/scene.hpp"
 
@@ -107,6 +108,27 @@ template <class Number>
   const LooseState<Number>& own = state.loose;
   if (own.wall == Side::none) return {own.place - state.x, own.speed - state.v};
   return {Number(own.wall == Side::upper ? loose.upper : loose.lower) + own.place, own.speed};
+}
+
+/// Displacement and velocity of the main mass and of the loose one.
+template <class Number>
+[[nodiscard]] Four<Number> numbers_of(const State<Number>& state, const LooseMass& loose) {
+  if (state.loose.wall == Side::none) return {state.x, state.v, state.loose.place, state.loose.speed};
+  const auto [z, w] = place_in_housing(state, loose);
+  return {state.x, state.v, Number(state.x + z), Number(state.v + w)};
+}
+/// The state that a small change makes of one. A loose mass that a wall presses stays on it.
+template <class Number>
+[[nodiscard]] State<Number> moved(State<Number> state, const Four<double>& by) {
+  if (by == Four<double>{}) return state;
+  state.x += by[0], state.offset += by[0], state.v += by[1], state.released = false;
+  state.within = Side::none, state.pressed = false;  // which the next arc finds out
+  LooseState<Number>& loose = state.loose;
+  const bool is_of_wall = loose.wall != Side::none;
+  if (is_of_wall && loose.place == 0 && loose.speed == 0) return state;
+  loose.place += is_of_wall ? by[2] - by[0] : by[2], loose.speed += is_of_wall ? by[3] - by[1] : by[3];
+  loose.released = false;
+  return state;
 }
 
 /// The start of a loose mass, from that of the main mass.

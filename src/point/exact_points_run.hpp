@@ -95,7 +95,7 @@ double ExactPoints<E>::seconds_per_evaluation() {
   for (int repetition = 0; repetition < 3; ++repetition) {
     stepping::Exact<double, E> integrator(problem);
     motion::State<double> state = start_of(problem);
-    steady::PassageObserver watch(problem.stops);
+    auto watch = steady::passage_observer(integrator, problem);
     const auto begin = Clock::now();
     (void)run_for(integrator, state, 50.0, watch);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -89,7 +89,8 @@ template <stepping::Integrator I>
     return {Status::transient, state, time.duration / integrator.period(), 0.0, FoundBy::start};
   if constexpr (E.loose) {
     const std::int64_t from = integration.all_effects ? last_look(scene.oscillator, time.max_periods) : 0;
-    return find_repetition_in_housing(integrator, state, scene, time, from);
+    const bool by_newton = I::in_closed_form && integration.shortcuts && !integration.all_effects;
+    return HousingSearch<I>(integrator, scene, time, by_newton, from).run(state);
   } else {
     return find_steady_between_stops(integrator, state, scene, time, integration);
   }

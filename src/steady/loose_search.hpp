@@ -1,15 +1,21 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "motion/walls.hpp"
 #include "scene/displacement_bound.hpp"
 #include "scene/effects.hpp"
 #include "steady/contact_at_section.hpp"
+#include "steady/housing_map.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/passage_observer.hpp"
 #include "steady/repeat.hpp"
@@ -43,41 +49,124 @@ namespace clatter::steady {
   return (is_open_above && departs(1, loose.lower)) || (is_open_below && departs(-1, loose.upper));
 }
 
-/// Runs forced motion with a loose mass until it repeats: its displacement and velocity, and the place of the loose
-/// mass in its housing with z'. Repeats count from the stroboscopic section `from` on. No shortcut is proved of it.
+/// Finds the steady state of forced motion with a loose mass, section by section: by Newton's method once successive
+/// states contract, else by repetition of its displacement and velocity, and the place of the loose mass in its housing
+/// with z'.
 template <stepping::Integrator I>
-[[nodiscard]] ObservedTime find_repetition_in_housing(I& integrator, motion::State<double> state, const Scene& scene,
-                                                      const TimeSettings& time, std::int64_t from) {
-  constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
-  PassageObserver watch(integrator.stops());
-  BasicRepeatFinder<3> repeat(time.tolerance);
-  std::array<motion::State<double>, RepeatFinder::longest> recent;
-  const BeyondContact beyond_contact(scene, integrator.period());
-  const SineCosine<double> phase = integrator.phase(motion::State<double>{});
-  for (std::int64_t section = 0;; ++section) {
-    const auto settled = static_cast<double>(section);
-    const double log_volume = watch.passage().log_area - 2 * integrator.constants().h * integrator.period();
-    recent[static_cast<std::size_t>(section % longest)] = state;
-    if (section >= from) {
-      const auto place = motion::place_in_housing(state, scene.loose);
-      const auto [x, v, z, w] = beyond_contact({state.x, state.v, place.z, place.w});
-      if (const std::size_t n =
-              repeat.add(x, {v, z, w}, log_volume, {watch.passage().size, watch.passage().loose_size})) {
-        const auto chosen =
-            section - static_cast<std::int64_t>(repeat.first_of_last(n, BeginsBefore(scene.oscillator.forcing)));
-        ObservedTime found{Status::periodic, recent[static_cast<std::size_t>(chosen % longest)], static_cast<double>(n),
-                           settled, FoundBy::repetition};
-        found.settling = settled;
-        return found;
-      }
-    }
-    if (loose_mass_escapes(scene, state, phase)) return escape(state, settled);
-    if (section == time.max_periods)
-      return {Status::aperiodic, state, static_cast<double>(time.window), settled, FoundBy::nothing};
-    watch.begin_section();
-    const stepping::Outcome outcome = advance_to_section(integrator, state, state.periods, watch);
-    if (outcome != stepping::Outcome::completed) return {status_of(outcome), state, 0.0, settled, FoundBy::nothing};
+class HousingSearch {
+ public:
+  /// Repeats count from the stroboscopic section `from` on.
+  HousingSearch(I& integrator, const Scene& scene, const TimeSettings& time, bool by_newton, std::int64_t from)
+      : integrator_(integrator),
+        scene_(scene),
+        time_(time),
+        by_newton_(by_newton),
+        from_(from),
+        beyond_contact_(scene, integrator.period()),
+        repeat_(time.tolerance),
+        watch_(passage_observer(integrator, scene)),
+        map_(integrator, scene, time.tolerance) {
+    near_enough_.fill(nearest_first);
   }
-}
+
+  /// Runs from `state`, at a section, until the steady state is known.
+  [[nodiscard]] ObservedTime run(motion::State<double> state) {
+    const SineCosine<double> phase = integrator_.phase(motion::State<double>{});
+    for (;; ++section_) {
+      recent_[place_of(section_) % recent_.size()] = state;
+      if (section_ >= from_)
+        if (const std::size_t n = repeats(state)) return repetition(n);
+      if (loose_mass_escapes(scene_, state, phase)) return escape(state, simulated());
+      if (section_ == time_.max_periods)
+        return {Status::aperiodic, state, static_cast<double>(time_.window), simulated(), FoundBy::nothing};
+      if (by_newton_)
+        if (auto found = attractor(state)) return std::move(*found);
+      watch_.begin_section();
+      const stepping::Outcome outcome = advance_to_section(integrator_, state, state.periods, watch_);
+      if (outcome != stepping::Outcome::completed)
+        return {status_of(outcome), state, 0.0, simulated(), FoundBy::nothing};
+      itineraries_[place_of(section_) % itineraries_.size()] = watch_.passage().itinerary;
+    }
+  }
+
+ private:
+  static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt is made
+  static constexpr std::int64_t long_settling = 128;
+  static constexpr std::size_t longest = BasicRepeatFinder<3>::longest;
+
+  [[nodiscard]] static std::size_t place_of(std::int64_t section) { return static_cast<std::size_t>(section); }
+  [[nodiscard]] double settled() const { return static_cast<double>(section_); }
+  [[nodiscard]] double simulated() const { return settled() + static_cast<double>(map_.simulated()); }
+
+  /// The forcing periods after which the motion repeats, 0 while it doesn't.
+  [[nodiscard]] std::size_t repeats(const motion::State<double>& state) {
+    const Passage& passage = watch_.passage();
+    const double log_volume = passage.log_area - 2 * integrator_.constants().h * integrator_.period();
+    const auto place = motion::place_in_housing(state, scene_.loose);
+    const auto [x, v, z, w] = beyond_contact_({state.x, state.v, place.z, place.w});
+    return repeat_.add(x, {v, z, w}, log_volume, {passage.size, passage.loose_size});
+  }
+  [[nodiscard]] ObservedTime repetition(std::size_t n) const {
+    const std::size_t ago = repeat_.first_of_last(n, BeginsBefore(scene_.oscillator.forcing));
+    ObservedTime found{Status::periodic, recent_[(place_of(section_) - ago) % recent_.size()], static_cast<double>(n),
+                       simulated(), FoundBy::repetition};
+    found.settling = settled();
+    return found;
+  }
+
+  /// Once states have begun to contract, the periodic motion that they contract to, if Newton's method finds it.
+  [[nodiscard]] std::optional<ObservedTime> attractor(const motion::State<double>& state) {
+    const bool pays = section_ <= long_settling || section_ % 8 == 0;
+    if (!pays || state.loose.pressed) return std::nullopt;
+    const std::size_t n = contracting();
+    const auto spent = static_cast<std::int64_t>(map_.simulated() + n * HousingMap<I>::most_turns);
+    if (n == 0 || spent > std::min<std::int64_t>(64, time_.max_periods) + section_ / 4) return std::nullopt;
+    near_enough_[n] = repeat_.distance_over(n) / 4;  // for the next attempt
+    std::vector<std::uint64_t> contacts;
+    for (std::size_t ago = n; ago > 0; --ago) contacts.push_back(itinerary(ago));
+    auto orbit = map_.attractor_of(state, contacts, watch_.passage());
+    return orbit ? std::optional(observed(*orbit)) : std::nullopt;
+  }
+  /// The least n for which states n apart come closer, over the same contacts in the same order; 0 for none.
+  [[nodiscard]] std::size_t contracting() const {
+    for (std::size_t n = repeat_.next_within(nearest_first, 1); n > 0; n = repeat_.next_within(nearest_first, n + 1)) {
+      const double now = repeat_.distance_over(n);
+      if (!(now <= near_enough_[n] && now > 8 * epsilon<double>() && now < repeat_.distance_over(n, n))) continue;
+      bool same = true, meets = false;
+      for (std::size_t ago = 1; same && ago <= n; ++ago)
+        same = itinerary(ago) == itinerary(n + ago), meets = meets || itinerary(ago) != 0;
+      if (same && meets) return n;
+    }
+    return 0;
+  }
+  /// Of the forcing period that began so many sections ago.
+  [[nodiscard]] std::uint64_t itinerary(std::size_t ago) const {
+    return itineraries_[(place_of(section_) - ago) % itineraries_.size()];
+  }
+  [[nodiscard]] ObservedTime observed(const HousingOrbit& orbit) const {
+    const BeginsBefore before(scene_.oscillator.forcing);
+    const std::size_t n = least_divisor(orbit.periods(), [&](std::size_t m) {
+      return map_.distance(orbit.states[0], orbit.states[m]) <= RepeatFinder::divisor_tolerances * time_.tolerance;
+    });
+    const auto first = std::ranges::min_element(
+        std::span(orbit.states).first(n), [&](const auto& a, const auto& b) { return before(a.x, a.v, b.x, b.v); });
+    ObservedTime found{Status::periodic, *first, static_cast<double>(n), simulated(), FoundBy::newton};
+    found.settling = settled() + orbit.settling;
+    return found;
+  }
+
+  I& integrator_;
+  const Scene& scene_;
+  TimeSettings time_;
+  bool by_newton_;
+  std::int64_t from_, section_ = 0;
+  BeyondContact beyond_contact_;
+  BasicRepeatFinder<3> repeat_;
+  HousingObserver watch_;
+  HousingMap<I> map_;
+  std::array<motion::State<double>, longest> recent_{};   ///< [section modulo its size]
+  std::array<std::uint64_t, 2 * longest> itineraries_{};  ///< [section modulo its size], of the period from it
+  std::array<double, longest + 1> near_enough_;           ///< [n]: distance below which an attempt is made
+};
 
 }  // namespace clatter::steady

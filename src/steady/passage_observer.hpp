@@ -5,22 +5,29 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
+#include "motion/loose_tangent.hpp"
 #include "motion/tangent_map.hpp"
 #include "steady/map_orbit.hpp"
 #include "stepping/integration.hpp"
+#include "stepping/integrator.hpp"
 
 namespace clatter::steady {
 
 /// Records, for the search of a periodic motion, which stops are hit, rested on, touched and left between sections, and
 /// where the mass sticks or turns back, in their order, and if asked for the derivative of the motion.
-class PassageObserver {
+template <class Tangent>
+class BasicPassageObserver {
  public:
-  explicit PassageObserver(const Stops& stops)
-      : stops_(stops),
-        log_lower_(2 * std::log(restitution_at<double>(stops, Side::lower).share_at_rest())),
+  explicit BasicPassageObserver(const Stops& stops) requires std::is_same_v<Tangent, motion::TangentMap<double>>
+      : BasicPassageObserver(stops, Tangent(stops)) {}
+  /// `tangent` is a derivative that hasn't begun.
+  BasicPassageObserver(const Stops& stops, const Tangent& tangent)
+      : log_lower_(2 * std::log(restitution_at<double>(stops, Side::lower).share_at_rest())),
         log_upper_(2 * std::log(restitution_at<double>(stops, Side::upper).share_at_rest())),
-        tangent_(stops) {}
+        anew_(tangent),
+        tangent_(tangent) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -57,13 +64,14 @@ class PassageObserver {
 
   void begin_section() { passage_ = {}; }
   /// Begins to compute the derivative anew, from here.
-  void differentiate() { differentiates_ = true, tangent_ = motion::TangentMap<double>(stops_); }
+  void differentiate() { differentiates_ = true, tangent_ = anew_; }
+  void stop_differentiating() { differentiates_ = false; }
 
   /// Makes the derivative that from here on, within an event, too.
   void begin_derivative_anew() { tangent_.begin_anew(); }
 
   [[nodiscard]] const Passage& passage() const { return passage_; }  ///< since the section
-  [[nodiscard]] motion::Jacobian<double> derivative() const { return tangent_.map(); }
+  [[nodiscard]] auto derivative() const { return tangent_.map(); }
 
  private:
   /// The mark of an event in an itinerary, > 0.
@@ -109,12 +117,24 @@ class PassageObserver {
   }
   void see(double x, double v) { passage_.size = std::max({passage_.size, std::abs(x), std::abs(v)}); }
 
-  Stops stops_;
   double log_lower_, log_upper_;  ///< logarithm of R^2, the factor by which an impact shrinks areas
-  motion::TangentMap<double> tangent_;
+  Tangent anew_, tangent_;
   Passage passage_;
   bool differentiates_ = false;
 };
+
+using PassageObserver = BasicPassageObserver<motion::TangentMap<double>>;
+
+using HousingObserver = BasicPassageObserver<motion::LooseTangent>;
+
+/// That of the motion that an integrator computes, with a loose mass or without.
+template <stepping::Integrator I>
+[[nodiscard]] auto passage_observer(const I& integrator, const Scene& scene) {
+  if constexpr (I::effects.loose)
+    return HousingObserver(integrator.stops(), motion::LooseTangent(scene));
+  else
+    return PassageObserver(integrator.stops());
+}
 
 /// The motion over n periods from a state; nothing if it fails. `advance(state)` runs it to the next section and shows
 /// it to `watch`.

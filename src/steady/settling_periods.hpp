@@ -25,7 +25,8 @@ template <stepping::Integrator I>
   constexpr double never = std::numeric_limits<double>::quiet_NaN();
   if (!(found.status == Status::periodic || found.status == Status::grazing) || !std::isfinite(found.settling))
     return never;
-  PassageObserver watch(integrator.stops());  // as in the search: another observer would compile the integrator anew
+  auto watch =
+      passage_observer(integrator, scene);  // as in the search: another observer would compile the integrator anew
   const auto advance = [&](motion::State<double>& state) {
     return advance_to_section(integrator, state, state.periods, watch) == stepping::Outcome::completed;
   };

@@ -1,7 +1,7 @@
 // The four multipliers of motion with a loose mass: a bifurcation in closed form, their product, and difference
 // quotients.
 
-#include "observables/stability/multipliers.hpp"
+#include "motion/linear_maps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -149,57 +149,6 @@ TEST(Multipliers, without_impacts_the_loose_mass_is_neutral) {
   EXPECT_NEAR(result.multiplier_re[1], 1, 1e-7);
   EXPECT_NEAR(std::hypot(result.multiplier_re[2], result.multiplier_im[2]), decay, 1e-14);
   EXPECT_NEAR(result.lyapunov, 0, 1e-8);
-}
-
-TEST(Multipliers, are_sorted_by_their_modulus) {
-  const auto found = multipliers_of({{{0.5, 0, 0, 0}, {0, 0, -2, 0}, {0, 2, 0, 0}, {0, 0, 0, -1}}});
-  EXPECT_NEAR(std::abs(found[0] - std::complex<double>(0, 2)), 0, 1e-15);
-  EXPECT_NEAR(std::abs(found[1] - std::complex<double>(0, -2)), 0, 1e-15);
-  EXPECT_NEAR(found[2].real(), -1, 1e-15);
-  EXPECT_NEAR(found[3].real(), 0.5, 1e-15);
-  EXPECT_TRUE(std::isnan(multipliers_of({{{std::nan(""), 0, 0, 0}, {}, {}, {}}})[0].real()));
-}
-
-/// The map has the multipliers `large`, 5, 0.5 and 0.2, in coordinates of which none is one of theirs.
-TEST(Multipliers, are_not_told_where_they_have_no_digits) {
-  const auto of = [](double large, double power) {
-    constexpr double turn[4][4] = {
-        {1, 1, 1, 1}, {1, -1, 1, -1}, {1, 1, -1, -1}, {1, -1, -1, 1}};  // 4 times its inverse
-    const std::array<double, 4> diagonal{large, 5, 0.5, 0.2};
-    motion::LooseJacobian entries{};
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t k = 0; k < 4; ++k)
-          entries[i][j] += std::ldexp(turn[i][k] * diagonal[k] * turn[k][j] / 4, -static_cast<int>(power));
-    return known_of(multipliers_of(entries), power);
-  };
-  for (const double power : {0.0, 40.0}) {
-    const double size = std::ldexp(1, static_cast<int>(power));
-    const auto known = of(1e6, power);
-    EXPECT_NEAR(std::abs(size * known[0] * size * known[1] * size * known[2] * size * known[3]), 5e5, 1e-2);
-    const auto lost = of(1e17, power);
-    EXPECT_NEAR(lost[0].real() * size, 1e17, 1e4);
-    for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(std::isnan(lost[i].real()) && std::isnan(lost[i].imag())) << i;
-  }
-  const auto two_large = known_of({1e18, -2e17, 3.0, 0.5}, 0);
-  EXPECT_EQ(two_large[1], -2e17);
-  EXPECT_TRUE(std::isnan(two_large[2].real()));
-}
-
-/// A map that contracts is applied until nothing changes any more.
-TEST(Multipliers, a_fixed_point_moves_to_where_the_moved_map_leads) {
-  const motion::LooseJacobian map{
-      {{0.4, -0.3, 0.1, 0.2}, {0.2, 0.3, -0.2, 0.1}, {0.1, 0.5, -0.3, 0.2}, {-0.4, 0.1, 0.2, 0.1}}};
-  const std::array<double, 4> by_number{0.7, -1.3, 0.2, 2.1};
-  std::array<double, 4> point{};
-  for (int times = 0; times < 400; ++times) {
-    std::array<double, 4> next = by_number;
-    for (std::size_t row = 0; row < 4; ++row)
-      for (std::size_t column = 0; column < 4; ++column) next[row] += map[row][column] * point[column];
-    point = next;
-  }
-  const std::array<double, 4> change = change_of_fixed_point(map, by_number);
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(change[i], point[i], 1e-14);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "branches/equations/housing_flight.hpp"
-#include "observables/stability/multipliers.hpp"
+#include "motion/linear_maps.hpp"
 
 namespace clatter::branches {
 namespace {
@@ -146,7 +146,7 @@ bool HousingCharacteristic::would_be_complex() const {
 }
 
 std::array<std::complex<double>, 4> housing_multipliers(const FollowedScene& scene, const Orbit& orbit) {
-  return observables::known_of(observables::multipliers_of(square_of(map_of(scene, orbit))));
+  return motion::known_of(motion::multipliers_of(square_of(map_of(scene, orbit))));
 }
 
 Vector direction_of_daughter_in_housing(const FollowedScene& scene, const Orbit& orbit, const Orbit& daughter,

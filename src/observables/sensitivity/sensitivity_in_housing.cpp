@@ -10,7 +10,7 @@
 #include "observables/sensitivity/dual_motion.hpp"
 #include "observables/sensitivity/housing_extremes.hpp"
 #include "observables/sensitivity/sensitivity_observer.hpp"
-#include "observables/stability/multipliers.hpp"
+#include "motion/linear_maps.hpp"
 #include "scene/smooth_effects.hpp"
 
 namespace clatter::observables {
@@ -198,12 +198,12 @@ class HousingWalk {
 
   [[nodiscard]] Sensitivity::ByKey result() const {
     motion::LooseJacobian map;
-    std::array<double, 4> by_number;
+    motion::Four<double> by_number;
     for (std::size_t row = 0; const Along* end : {&state_.x, &state_.v, &state_.z, &state_.w}) {
       std::copy_n(end->slope.begin(), by_number.size(), map[row].begin());
       by_number[row++] = end->slope[by_key];
     }
-    const auto change = change_of_fixed_point(map, by_number);
+    const auto change = motion::change_of_fixed_point(map, by_number);
     const auto total = [&](const Along& y) {
       double sum = y.slope[by_key];
       for (std::size_t i = 0; i < change.size(); ++i) sum += y.slope[i] * change[i];

@@ -9,7 +9,7 @@
 #include "motion/neighbourhood.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "motion/tangent_map.hpp"
-#include "observables/stability/multipliers.hpp"
+#include "motion/linear_maps.hpp"
 #include "observables/stability/rough_grazes.hpp"
 #include "observables/stability/stability.hpp"
 #include "observables/stability/wall_grazes.hpp"
@@ -113,9 +113,9 @@ class Stability::Observer {
   [[nodiscard]] Values of_loose_mass(const ObservedSpan& span) const {
     Values values;
     const double power = loose_->exponent();
-    if (!span.periodic) values.lyapunov = (log_norm(loose_->mantissa()) + power * std::numbers::ln2) / span.total;
+    if (!span.periodic) values.lyapunov = (motion::log_norm(loose_->mantissa()) + power * std::numbers::ln2) / span.total;
     if (!span.periodic || grazes()) return values;
-    auto all = known_of(multipliers_of(loose_->mantissa()), power);
+    auto all = motion::known_of(motion::multipliers_of(loose_->mantissa()), power);
     if (loose_->loses_two()) all[2] = all[3] = 0.0;  // but for rounding
     values.lyapunov = (std::log(std::abs(all[0])) + power * std::numbers::ln2) / span.total;
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -33,8 +33,9 @@ class WallGrazes {
   [[nodiscard]] bool found() const { return grazes_; }
 
  private:
-  /// Looks for a contact with walls that are moved inwards by rounding, clear of the walls that the flight leaves and
-  /// meets. A flight that doesn't come clear of them ends in a slow impact.
+  /// Looks for a contact with walls that are moved inwards by rounding, well clear of the walls that the flight leaves
+  /// and meets, so that the errors of its two ends and of the search count for nothing. A flight that doesn't come
+  /// clear of them meets no other wall.
   template <Effects E>
   void look_at(const motion::RelativeArc<double, E>& arc, double length) {
     const motion::Motion<double> first = arc.start(), last = arc.at(length);
@@ -57,13 +58,14 @@ class WallGrazes {
     return m.x > inner_.lower && m.x < inner_.upper;
   }
   /// How long the flight is near a wall, forwards or backwards in time: until its speed, its acceleration or its rate
-  /// has taken it twice as far as rounding. A section may cut a flight anywhere, just beside the inner walls, too.
+  /// has taken it many times as far as rounding. A section may cut a flight anywhere, just beside the inner walls, too.
   [[nodiscard]] double time_near(const motion::Motion<double>& m, double jerk, double forwards) const {
-    if (m.x > inner_.lower + rounding_ && m.x < inner_.upper - rounding_) return 0.0;
-    const double inwards = m.x >= inner_.upper - rounding_ ? -1 : 1;
+    const double clear = 64 * rounding_;
+    if (m.x > inner_.lower + clear && m.x < inner_.upper - clear) return 0.0;
+    const double inwards = m.x >= inner_.upper - clear ? -1 : 1;
     const auto lead = [&](double rate) { return std::max(0.0, inwards * rate); };
-    return std::min({2 * rounding_ / lead(forwards * m.v), std::sqrt(4 * rounding_ / lead(m.a)),
-                     std::cbrt(12 * rounding_ / lead(-forwards * jerk))});
+    return std::min({2 * clear / lead(forwards * m.v), std::sqrt(4 * clear / lead(m.a)),
+                     std::cbrt(12 * clear / lead(-forwards * jerk))});
   }
 
   Stops inner_;
