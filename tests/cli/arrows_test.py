@@ -35,7 +35,7 @@ INNER = {
 }
 KNOWN_TO = {  # library header: the only rooms that see it
     r"fftw3": {"observables"},
-    r"Eigen": {"observables", "branches"},
+    r"Eigen": {"motion", "branches"},
     r"omp\.h": {"sweep"},
     r"hdf5|H5": {"results"},
     r"toml": {"config"},
@@ -76,7 +76,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
     },
     r"toml": {"src/config/toml_reader.cpp"},
     r"fftw3": {"src/observables/harmonics/fourier_transform.cpp"},
-    r"Eigen": {"src/observables/stability/multipliers.cpp", "src/branches/equations/housing_multipliers.cpp"},
+    r"Eigen": {"src/motion/linear_maps.cpp", "src/branches/equations/housing_multipliers.cpp"},
     r"nlohmann": {
         "apps/clatter/help/config_schema.cpp",
         "apps/clatter/tables/json_output.cpp",
