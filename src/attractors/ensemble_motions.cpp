@@ -94,7 +94,6 @@ std::optional<std::size_t> EnsembleMotions::periodic_of(const point::Problem& pr
   std::optional<PeriodicMotion> motion = periodic_motion(problem, state, periods);
   if (!motion || !motion->contracts) return std::nullopt;
   const SectionState first = motion->cycle.front();
-  if (motion->floats && band_) return band_;
   if (const auto known = passing(first)) return known;
   return add({.periodic = std::move(motion), .state = first});
 }
@@ -149,7 +148,7 @@ bool EnsembleMotions::visits_mirror(const point::Problem& problem, const Motion&
 
 std::size_t EnsembleMotions::add(Motion motion) {
   const std::size_t index = motions_.size();
-  if (motion.is_band()) {
+  if (motion.sticks) {
     band_ = index;
   } else if (motion.periodic) {
     largest_ = std::max(largest_, motion.periodic->size);

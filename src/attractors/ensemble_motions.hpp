@@ -27,8 +27,6 @@ struct Motion {
   bool sticks = false;                       ///< dry friction holds the mass for good, here or at any place of a band
   Side creeps_to = Side::none;               ///< the edge of that band to which the mass creeps
 
-  /// Whether it goes on alike in a whole band of states, which are one motion.
-  [[nodiscard]] bool is_band() const { return sticks || (periodic && periodic->floats); }
   [[nodiscard]] std::size_t periods() const { return periodic ? periodic->cycle.size() : 0; }
 };
 

@@ -37,15 +37,16 @@ class Repeats {
   steady::BasicRepeatFinder<3> of_both_;
 };
 
-/// Adds the contacts of a round over a time in tau.
-void add_contacts(const std::vector<Event>& events, double total, Round& round) {
+/// Adds the contacts of a round over a time in tau. Words tell walls from stops if there may be both.
+void add_contacts(const std::vector<Event>& events, double total, bool has_both, Round& round) {
   std::vector<double> begins, ends;  // of contacts, sticks and reversals: between them the mass flies
   for (const Event& event : events) {
     if (event.kind == Event::Kind::separation && !ends.empty()) ends.back() = event.time;
     if (event.kind == Event::Kind::separation || event.kind == Event::Kind::renewal) continue;
     begins.push_back(event.time), ends.push_back(event.time + event.length);
     if (event.side == Side::none) continue;
-    round.contacts.push_back({event.time, event.velocity(), event.side});
+    round.contacts.push_back({event.time, event.velocity(), event.side, has_both && event.of_wall});
+    round.meets_walls = round.meets_walls || event.of_wall;
     round.fastest = std::max(round.fastest, event.speed());
   }
   double longest = 0.0;
@@ -62,6 +63,12 @@ void add_contacts(const std::vector<Event>& events, double total, Round& round) 
 point::Problem started(point::Problem problem, const SectionState& state, double phase) {
   problem.start = {state.x, state.v, phase + problem.shaking.lead};
   problem.loose.place = state.z, problem.loose.velocity = state.w;
+  return problem;
+}
+
+point::Problem without_loose_mass(point::Problem problem) {
+  problem.loose = {};
+  problem.given.reset();  // which has it
   return problem;
 }
 
@@ -86,7 +93,7 @@ std::optional<Round> run_round(const point::Problem& problem, std::size_t period
   Round round{*orbit, {}};
   for (std::size_t i = 0; i <= periods; ++i) round.states.push_back(section_of(problem, orbit->states[i]));
   if (recorder.loose) round.derivative = recorder.loose->map();
-  add_contacts(recorder.events, static_cast<double>(periods) * motion->period(), round);
+  add_contacts(recorder.events, static_cast<double>(periods) * motion->period(), has_events_of_its_own(problem), round);
   return round;
 }
 

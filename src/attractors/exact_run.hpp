@@ -17,10 +17,14 @@ namespace clatter::attractors {
 /// A problem that starts from another state, at another phase of the force or of the shaking (rad).
 [[nodiscard]] point::Problem started(point::Problem problem, const SectionState& state, double phase);
 
+/// A problem of the main mass alone.
+[[nodiscard]] point::Problem without_loose_mass(point::Problem problem);
+
 /// A motion over some forcing periods with its derivative and its contacts.
 struct Round {
   steady::MapOrbit orbit;
   std::vector<observables::ImpactWord::Contact> contacts;  ///< times in tau since the start
+  bool meets_walls = false;                                ///< with a loose mass
   double middle_of_flight = 0.0;  ///< of the longest one, forcing periods after the start; a flight may span the end
   double fastest = 0.0;           ///< speed of an impact
   std::vector<SectionState> states{};                 ///< at its sections; the last as computed from the first

@@ -279,7 +279,6 @@ class Numberer {
     const point::Problem problem = parameters_of(ensemble);
     const EnsembleMotions motions = found_again(ensemble);
     const Motion& motion = motions.motions()[instance - begins_[ensemble]];
-    if (motion.periodic && motion.periodic->floats) return instance;  // its band is its own mirror image
     const auto state = mirrored(problem, instances_[instance].state);
     if (!state) return std::nullopt;
     std::optional<std::size_t> met;

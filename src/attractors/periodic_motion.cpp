@@ -56,7 +56,6 @@ PeriodicMotion described(const point::Problem& problem, const Round& round) {
   motion.word = word_of(problem, round);
   motion.regime = ImpactWord::regime_of(round.contacts, static_cast<double>(periods));
   motion.middle_of_flight = round.middle_of_flight;
-  motion.floats = has_loose_mass(problem.loose) && round.contacts.empty();
   return motion;
 }
 
@@ -72,8 +71,10 @@ steady::ObservedTime decided(const point::Problem& problem, const steady::MapOrb
 }  // namespace
 
 bool PeriodicMotion::passes(const SectionState& state) const {
-  return std::ranges::any_of(
-      cycle, [&](const SectionState& own) { return size_of(difference(own, state)) <= same_motion * size; });
+  return std::ranges::any_of(cycle, [&](const SectionState& own) {
+    const SectionState apart = difference(own, state);
+    return (floats ? larger_of(apart.x, apart.v) : size_of(apart)) <= same_motion * size;
+  });
 }
 
 SectionState after_impact(const Scene& scene, SectionState state, double size) {
@@ -101,9 +102,13 @@ std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, Sec
           run_round(started(problem, {exact.from.x, exact.from.v}, phase), exact.sections.size(), exact.sections);
       return round ? std::optional(described(problem, *round)) : std::nullopt;
     }
-  } else if (first->contacts.empty()) {  // neutral, so that Newton's method has no way to go; its period is the force's
-    const auto round = periods > 1 ? run_round(started(problem, state, phase), 1) : first;
-    return round ? std::optional(described(problem, *round)) : std::nullopt;
+  } else if (!first->meets_walls) {  // neutral, so that Newton's method has no way to go
+    auto motion = periodic_motion(without_loose_mass(problem), {state.x, state.v}, periods, phase);
+    if (!motion) return std::nullopt;
+    motion->floats = true;
+    for (std::size_t i = 0; i < motion->cycle.size(); ++i)
+      motion->cycle[i].z = first->states[i].z, motion->cycle[i].w = first->states[i].w;
+    return motion;
   }
   Round round = polished(problem, *first, phase);
   const std::vector<SectionState>& states = round.states;

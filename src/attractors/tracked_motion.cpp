@@ -53,17 +53,20 @@ TrackedMotion::TrackedMotion(const point::Problem& problem, const Motion& motion
   if (!motion.periodic) return;
   const PeriodicMotion& periodic = *motion.periodic;
   floats_ = periodic.floats;
+  if (floats_) at_ = without_loose_mass(problem);
   word_ = periodic.word, size_ = periodic.size;
   state_ = periodic.cycle[static_cast<std::size_t>(periodic.middle_of_flight)];
   phase_turns_ = periodic.middle_of_flight - std::floor(periodic.middle_of_flight);
-  if (sticks_ || floats_ || problem.oscillator.forcing == 0 || phase_turns_ == 0) return;
-  const auto there = state_after(started(problem, state_, 0.0), phase_turns_);
+  if (floats_) state_.z = state_.w = 0;
+  if (sticks_ || problem.oscillator.forcing == 0 || phase_turns_ == 0) return;
+  const auto there = state_after(started(at_, state_, 0.0), phase_turns_);
   lost_ = !there;
   if (there) state_ = *there;
 }
 
-bool TrackedMotion::follow(const point::Problem& to) {
+bool TrackedMotion::follow(const point::Problem& next) {
   if (lost_) return false;
+  const point::Problem to = floats_ ? without_loose_mass(next) : next;
   bool followed = true;
   if (sticks_) {  // perhaps elsewhere in its band
     if (!sticks_for_good(to, state_.x)) state_.x = equilibrium_of(to.oscillator);
@@ -71,8 +74,8 @@ bool TrackedMotion::follow(const point::Problem& to) {
   } else if (creeps_to_ != Side::none) {
     state_.x = edge_of_band(to, creeps_to_, state_.x).value_or(state_.x);
     followed = band_edge_at(to, state_.x) == creeps_to_;
-  } else if (floats_) {  // perhaps elsewhere in its housing
-    followed = may_float(to);
+  } else if (floats_ && !may_float(next)) {
+    followed = false;
   } else if (to.oscillator.forcing == 0 || at_.oscillator.forcing == 0) {
     followed = to.oscillator.forcing == at_.oscillator.forcing;
     state_.x = place_of_rest(at_, to, state_.x);
@@ -140,7 +143,7 @@ bool TrackedMotion::move_section(const point::Problem& problem, const Round& rou
 }
 
 std::optional<std::size_t> TrackedMotion::among(const EnsembleMotions& motions) const {
-  if (sticks_ || floats_) return motions.band();
+  if (sticks_) return motions.band();
   if (!is_periodic()) {
     const auto met = motions.visiting(states_);
     return met && motions.motions()[*met].symmetric == symmetric_ ? met : std::nullopt;

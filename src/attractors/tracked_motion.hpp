@@ -17,9 +17,9 @@ class TrackedMotion {
   /// A motion that was found at the parameters of `problem`.
   TrackedMotion(const point::Problem& problem, const Motion& motion);
 
-  /// Follows it to the parameters of another problem. Returns false if it ends on the way, or attracts no more; it
+  /// Follows it to the parameters of the next problem. Returns false if it ends on the way, or attracts no more; it
   /// can't be followed any further then.
-  [[nodiscard]] bool follow(const point::Problem& to);
+  [[nodiscard]] bool follow(const point::Problem& next);
 
   /// Which of the motions at these parameters it has become; nothing if no start ends in it.
   [[nodiscard]] std::optional<std::size_t> among(const EnsembleMotions& motions) const;

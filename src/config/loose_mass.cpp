@@ -60,11 +60,15 @@ struct Own {
   const SourceLocation* place = nullptr;
   std::string name{};
 };
-Own own_of(const Settings& settings) {
-  if (const SourceLocation* const place = place_of_stop(settings)) return {place, "a stop of the main mass"};
+Own friction_of(const Settings& settings) {
   for (const Parameter level : std::array<Parameter, 2>{"friction", "friction_static"})
     if (const SourceLocation* const place = place_of_nonzero(settings.given(level)))
       return {place, "friction of the main mass"};
+  return {};
+}
+Own own_of(const Settings& settings) {
+  if (const SourceLocation* const place = place_of_stop(settings)) return {place, "a stop of the main mass"};
+  if (const Own friction = friction_of(settings); friction.place != nullptr) return friction;
   if (const SourceLocation* const place =
           place_of(settings.given("stiffness"), [](double value) { return !(value > 0); }))
     return {place, "a stiffness that is not above 0"};
@@ -132,16 +136,16 @@ void check_uses(const Settings& settings) {
     refuse(across->key_location, "'across'", "leave it and curve out, and follow branches at several values of it");
   const Own own = own_of(settings);
   check_followed(settings, own);
-  if (own.place == nullptr) return;
-  const auto refuse_own = [&](const std::string& beside, const std::string& way_out) {
-    fail(*own.place, own.name + " conflicts with " + beside + " beside 'loose_mass'; " + way_out);
+  const auto refuse_own = [](const Own& of_main, const std::string& beside, const std::string& way_out) {
+    if (of_main.place != nullptr)
+      fail(*of_main.place, of_main.name + " conflicts with " + beside + " beside 'loose_mass'; " + way_out);
   };
   if (!named_parameters(settings, "observe", "sensitivity").empty())
-    refuse_own("'sensitivity'", "leave that out, and take differences of runs");
+    refuse_own(own, "'sensitivity'", "leave that out, and take differences of runs");
   if (settings.find("observe", "attractor") != nullptr && settings.flag("observe", "attractor"))
-    refuse_own("'attractor'", "leave that out, and take word = true");
+    refuse_own(friction_of(settings), "'attractor'", "leave that out, and take word = true");
   if (settings.text("integrator", "method") == "moreau")
-    refuse_own("method = \"moreau\"", "take \"exact\" or \"dopri5\"");
+    refuse_own(own, "method = \"moreau\"", "take \"exact\" or \"dopri5\"");
 }
 
 }  // namespace
