@@ -4,6 +4,7 @@ Environment: CLATTER, the program.
 """
 
 import math
+import random
 import unittest
 
 import numpy as np
@@ -34,9 +35,9 @@ class Numbered(Followed):
     def numbered(self, scene, sweep, section="scene", time=TIME, **more):
         return self.observed(without(scene, *sweep), time, sweep, section=section, observe={**TOLD, **more})
 
-    def assert_numbers(self, data):
-        """Numbers count motions by their first points; two points have the same one if no wall is met in both, or a
-        section of the one is among those of the other. Returns word and sections of each motion."""
+    def assert_numbers(self, data, walls="LU"):
+        """Numbers count motions by their first points; two points have the same one if a section of the one is among
+        those of the other, of the main mass alone if no wall is met in both. Returns word and sections of each."""
         numbers, words = data["attractor"].ravel(), data["impact_word"].ravel()
         self.assertTrue((data["status"] == 0).all())
         states = np.stack([data[f"section_{name}"].reshape(numbers.size, -1) for name in "xvzw"], axis=-1)
@@ -44,8 +45,9 @@ class Numbered(Followed):
         for i, (number, word) in enumerate(zip(numbers, words)):
             size, known = np.nanmax(np.abs(states[i])), 0
             for other, cycle in motions:
-                near = np.nanmin(np.abs(cycle - states[i][0]).max(axis=1)) < 1e-7 * size
-                if word == other and (word == "-" or near):
+                numbers_compared = 4 if set(word) & set(walls) else 2
+                apart = np.abs(cycle - states[i][0])[:, :numbers_compared]
+                if word == other and np.nanmin(apart.max(axis=1)) < 1e-7 * size:
                     break
                 known += 1
             else:
@@ -177,6 +179,61 @@ class Along(Numbered):
         )
         np.testing.assert_array_equal(data["attractor"][0][same], data["attractor"][1][same])
         self.assertGreater(same.sum(), 3)
+
+
+class BesideStops(Numbered):
+    """Words tell walls, l and u, from stops."""
+
+    def test_a_loose_mass_floats_beside_impacts_of_the_main_one(self):
+        scene = {"h": 0.05, "f": 0.6, "nu": 1.2, "xs": 0.3, "R": 0.7, "loose_mass": 0.05, "loose_gap": 1.0}
+        data = self.numbered({**scene, "loose_R": 0.6}, {"loose_x0": [-0.4, 0.0, 0.4], "loose_v0": [0.0, 0.8]})
+        motions = self.assert_numbers(data, "lu")
+        floats = [i for i, (word, _) in enumerate(motions) if not set(word) & set("lu")]
+        self.assertEqual(len(floats), 1)
+        self.assertGreater(len(motions[floats[0]][0]), 1)
+        self.assertEqual(set(data["attractor"][:, 0]), set(floats))
+        self.assertEqual(len(set(data["section_z"][:, 0, 0])), 3)  # the places of the band
+
+    def test_it_keeps_the_number_of_the_main_mass_along_the_frequency(self):
+        scene = {"h": 0.05, "f": 0.6, "xs": 0.3, "R": 0.7, "loose_mass": 0.05, "loose_gap": 1.0, "loose_R": 0.6}
+        data = self.numbered(scene, {"nu": "linspace(1.15, 1.25, 6)", "loose_x0": [-0.2, 0.2]})
+        words = data["impact_word"]
+        self.assertEqual(len(set(words.ravel())), 1)
+        self.assertFalse(set(words[0, 0]) & set("lu"))
+        self.assertEqual(set(data["attractor"].ravel()), {0})
+
+    def test_starts_of_any_scene(self):
+        starts = {"loose_x0": [-0.2, 0.15], "loose_v0": [-0.5, 0.4], "v0": [-0.7, 0.0, 0.6]}
+        told = 0
+        for seed in range(12):
+            draw = random.Random(seed)
+            scene = {"h": draw.uniform(0.05, 0.2), "f": draw.uniform(0.3, 1), "nu": draw.uniform(0.7, 1.8)}
+            scene |= {
+                "stiffness": draw.choice([1.0, 0.3, 0.0]),
+                "xs": draw.uniform(0.3, 1),
+                "R": draw.uniform(0.3, 0.8),
+            }
+            scene |= {"loose_mass": draw.uniform(0.02, 0.3), "loose_gap": draw.uniform(0.3, 0.8)}
+            scene |= {"loose_R": draw.uniform(0.3, 0.8), "loose_load": draw.choice([0.0, -0.1])}
+            if draw.random() < 0.5:
+                scene |= {"stop_stiffness": draw.uniform(5, 100), "stop_damping": draw.uniform(0, 1)}
+            with self.subTest(seed=seed, scene=scene):
+                data = self.numbered(scene, starts)
+                if (data["status"] == 0).all():
+                    self.assert_numbers(data, "lu")
+                    told += 1
+        self.assertGreater(told, 5)
+
+    def test_mirrored_starts_end_in_mirrored_motions(self):
+        scene = {**MANY, "xs": 0.5, "R": 0.7}
+        places, speeds = np.linspace(-0.35, 0.3, 8), np.linspace(-0.5, 0.6, 8)[::-1]
+        starts = [(x, v, p) for x, v, p in zip(places, speeds, np.linspace(0, 6, 8))]
+        starts += [(-x, -v, p + math.pi) for x, v, p in starts]
+        sweep = dict(zip(("loose_x0", "loose_v0", "phase"), (list(map(float, key)) for key in zip(*starts))))
+        data = self.numbered(scene, {**sweep, "linked": ", ".join(sweep)})
+        numbers = data["attractor"]
+        self.assertTrue((numbers >= 0).all())
+        np.testing.assert_array_equal(data["motion_mirror"][numbers[:8]], numbers[8:])
 
 
 class Bytes(Numbered):
