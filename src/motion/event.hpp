@@ -47,10 +47,10 @@ struct Event {
   double turns = 0.0;      ///< of a contact: forcing periods since the section before it, 0 ... 1
   bool held = true;        ///< of what lasts: at rest; false: a chatter, or a force within rounding of 0 is waited for
   bool has_arc = false;    ///< of what lasts: an arc shows it, too, since a loose mass moves meanwhile
-  bool of_wall = false;    ///< of a loose mass, but told as one of a mass between stops
   double carried = 0.0;    ///< of a rest and a stick: the loose mass, over the main one, that a wall presses meanwhile
   double a_before = 0.0, a_after = 0.0;  ///< of a reversal: the accelerations, between which friction makes it jump
   Main main{};                           ///< of a strike and a press
+  bool of_wall = false;                  ///< of a loose mass, but told as one of a mass between stops
 
   [[nodiscard]] double end() const { return time + length; }
   [[nodiscard]] bool is_stick() const { return kind == Kind::stick; }
