@@ -140,8 +140,6 @@ void check_uses(const Settings& settings) {
     if (of_main.place != nullptr)
       fail(*of_main.place, of_main.name + " conflicts with " + beside + " beside 'loose_mass'; " + way_out);
   };
-  if (!named_parameters(settings, "observe", "sensitivity").empty())
-    refuse_own(own, "'sensitivity'", "leave that out, and take differences of runs");
   if (settings.find("observe", "attractor") != nullptr && settings.flag("observe", "attractor"))
     refuse_own(friction_of(settings), "'attractor'", "leave that out, and take word = true");
   if (settings.text("integrator", "method") == "moreau")

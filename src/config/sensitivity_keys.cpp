@@ -8,12 +8,20 @@
 namespace clatter::config {
 namespace {
 
+/// Whether a key is one of a machine with a loose mass, of whose main mass stops and friction are its own. Nothing
+/// shakes these.
+bool is_of_housed(const Settings& settings, Parameter parameter) {
+  if (!has_main_events(settings)) return !conflicts_with_loose_mass(parameter);
+  if (parameter.role() == Role::friction) return has_friction_somewhere(settings);
+  return parameter != "stop_amplitude" && parameter != "base_amplitude";
+}
+
 /// The keys by which steady motion has derivatives.
 std::vector<std::string_view> keys_of_motion(const Settings& settings) {
   std::vector<std::string_view> names;
   const bool is_housed = has_loose_mass(settings);
   for (const Parameter parameter : all_parameters) {
-    const bool is_its = is_housed ? !conflicts_with_loose_mass(parameter) : !parameter.is_loose();
+    const bool is_its = is_housed ? is_of_housed(settings, parameter) : !parameter.is_loose();
     if (parameter.is_in(settings.scene_section) && parameter.role() != Role::start && is_its &&
         !parameter.row().is_with_unit)
       names.push_back(parameter.key());
@@ -29,7 +37,7 @@ void check_name(const Settings& settings, const Setting& names, const std::strin
   const std::optional<Parameter> parameter = Parameter::of(name);
   if (parameter && parameter->role() == Role::start)
     fail(names.location, message + ", a start, which steady motion doesn't depend on; leave it out");
-  if (parameter && has_loose_mass(settings) && conflicts_with_loose_mass(*parameter))
+  if (parameter && has_loose_mass(settings) && !is_of_housed(settings, *parameter))
     fail(names.location, message + ", which conflicts with 'loose_mass'; leave it out");
   if (parameter && !counterpart_of(name).empty())
     fail(names.location, message + ", no key of [" + section + "], which describes this scene; take " +

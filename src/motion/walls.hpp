@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -46,6 +47,20 @@ template <class Constants, class Number, Effects E, class Other>
                                       (free.load + eps * Number(loose.load)) / both, free.k / both);
   constants.carried = eps, constants.period = free.period;
   return constants;
+}
+/// Soft stops, and friction, of a main mass with a loose one of so many times its mass.
+template <class Number>
+[[nodiscard]] BasicStops<Number> stops_of_both(BasicStops<Number> stops, const Number& ratio) {
+  using std::sqrt;
+  const Number both = 1 + ratio, root = sqrt(both);
+  for (Number* const stiffness : {&stops.stiffness_lower, &stops.stiffness_upper})
+    if (is_finite(*stiffness)) *stiffness = *stiffness / both;
+  stops.damping_lower = stops.damping_lower / root, stops.damping_upper = stops.damping_upper / root;  // ratios
+  return stops;
+}
+template <class Number>
+[[nodiscard]] BasicFriction<Number> friction_of_both(const BasicFriction<Number>& friction, const Number& ratio) {
+  return {friction.kinetic / (1 + ratio), friction.static_level / (1 + ratio)};
 }
 /// Whether free motion of both masses as one is a decaying rotation.
 template <class Number, Effects E, class Other>

@@ -94,14 +94,10 @@ class CarryingMass {
   using Any = std::conditional_t<rotates, std::variant<Light>, std::variant<Light, Heavy>>;
 
   [[nodiscard]] static Any of(const MainMass<Number, E>& alone, const BasicScene<Number>& scene) {
-    using std::sqrt;
-    const Number both = 1 + scene.loose.ratio, root = sqrt(both);
-    BasicStops<Number> stops = alone.stops();
-    stops.stiffness_lower /= both, stops.stiffness_upper /= both;
-    stops.damping_lower /= root, stops.damping_upper /= root;
-    const BasicFriction<Number> friction{scene.friction.kinetic / both, scene.friction.static_level / both};
+    const Number& ratio = scene.loose.ratio;
     const auto make = [&]<class Mass>() -> Any {
-      return Mass(motion::carrying<typename Mass::Constants>(alone.constants(), scene.loose), stops, friction,
+      return Mass(motion::carrying<typename Mass::Constants>(alone.constants(), scene.loose),
+                  motion::stops_of_both(alone.stops(), ratio), motion::friction_of_both(scene.friction, ratio),
                   alone.start_turns());
     };
     if constexpr (!rotates)

@@ -47,10 +47,15 @@ class Refusals(CommandLine):
 
     def test_what_does_not_know_stops_beside_it(self):
         for own in ("xs = 2", "stop_upper = 3", "friction = 0.1", "stiffness = 0"):
-            asked = ('sensitivity = "nu"', "attractor = true")
-            for line in asked[: 2 if "friction" in own else 1]:
-                with self.subTest(own=own, line=line):
-                    self.assert_told(f"{SCENE}{own}\n[observe]\n{line}\n", ("loose_mass", line.split()[0]))
+            if "friction" in own:
+                self.assert_told(f"{SCENE}{own}\n[observe]\nattractor = true\n", ("loose_mass", "attractor"))
+            else:  # which the friction isn't given of
+                asked = '[observe]\nsensitivity = "friction"\n'
+                self.assert_told(f"{SCENE}{own}\n{asked}", ("loose_mass", "'friction'"))
+            for key in ("base_amplitude", "stop_amplitude"):
+                asked = f'[observe]\nsensitivity = "{key}"\n'
+                if own != "stiffness = 0" or key == "stop_amplitude":
+                    self.assert_told(f"{SCENE}{own}\n{asked}", ("loose_mass", f"'{key}'"))
             self.assert_told(f'{SCENE}{own}\n[integrator]\nmethod = "moreau"\n', ("moreau", "exact"))
             branch = f'{SCENE}{own}\n[branch]\nalong = "nu"\nrange = [1, 2]\n'
             self.assert_told(branch, ("loose_mass", "[branch]"), "branch")

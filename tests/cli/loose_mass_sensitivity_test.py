@@ -119,11 +119,13 @@ def kinds(scenes, ways, key):
 
 
 class OfRandomScenes(OfScenes):
+    drawn = staticmethod(drawn)
+
     def test_the_units_of_length_time_and_mass_may_change(self):
-        for n, scenes in enumerate(families(drawn(COUNT, SEED), values_of)):
+        for n, scenes in enumerate(families(self.drawn(COUNT, SEED), values_of)):
             family = Family(self.program, scenes, of_section=values_of, observe=framed(scenes, n))
             self.check_scaling(family, scenes, OF_SCENE, 0, RESULTS_IN_HOUSING)
-        for scenes in families(drawn(COUNT // 3, SEED + 1), values_of):
+        for scenes in families(self.drawn(COUNT // 3, SEED + 1), values_of):
             family = Family(self.program, scenes, "[machine]\nmass = 0.3\n", machine_of(0.3))
             self.check_scaling(family, scenes, OF_MACHINE, 0.3, RESULTS_IN_HOUSING)
         self.assertEqual(self.told(), "")
@@ -133,7 +135,7 @@ class OfRandomScenes(OfScenes):
     def test_they_are_the_limits_of_differences(self):
         """By each key in turn, from runs that begin on the motion itself; to four orders in the step."""
         sharp = {}
-        for n, scenes in enumerate(families(drawn(COUNT, SEED + 2), values_of)):
+        for n, scenes in enumerate(families(self.drawn(COUNT, SEED + 2), values_of)):
             frame = framed(scenes, n)
             family = Family(self.program, scenes, of_section=values_of, observe=frame)
             found = [i for i in range(len(scenes)) if family.runs["status"][i] == PERIODIC]
@@ -163,7 +165,7 @@ class OfRandomScenes(OfScenes):
         self.assertEqual([key for key, count in sharp.items() if count == 0], [])
 
     def test_a_mirrored_scene_has_mirrored_ones(self):
-        scenes = [scene for scene in drawn(COUNT, SEED + 3) if "loose_upper" in scene]
+        scenes = [scene for scene in self.drawn(COUNT, SEED + 3) if "loose_upper" in scene]
         for scenes in families(scenes, values_of):
             others = [mirrored(scene) for scene in scenes]
             one, other = (Family(self.program, s, of_section=values_of) for s in (scenes, others))

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "motion/arc.hpp"
+#include "motion/soft_stop.hpp"
+#include "observables/energy/quadrature.hpp"
 #include "observables/observable.hpp"
 
 namespace clatter::observables {
@@ -27,6 +29,32 @@ template <class Along, Effects E>
               sine = with_slope_of(m.sine, m.cosine * phase), cosine = with_slope_of(m.cosine, -m.sine * phase);
   const Along a = constants.acceleration(constants.from_equilibrium(x, Along(anchor), offset), v, sine);
   return {offset, x, v, with_slope_of(m.a, a), sine, cosine};
+}
+
+/// The integral of the squared velocity along an arc, whose end comes later by `late`.
+template <class Along, Effects E>
+[[nodiscard]] Along squares_of_velocity(const motion::Arc<Along, E>& arc, double length,
+                                        const motion::Motion<Along>& end, const Along& late) {
+  const auto panels = static_cast<std::size_t>(std::ceil(length * arc.constants().rate.value / 2));
+  Along squares = end.v * end.v * late;
+  over_panels<20>(length, panels, [&](double s, double weight) {
+    const Along v = arc.at(Along(s)).v;
+    squares += weight * v * v;
+  });
+  return squares;
+}
+
+/// The energy that the springs of soft stops hold, of a mass at x.
+template <class Along>
+[[nodiscard]] Along stored_by_soft_stops(const BasicStops<Along>& stops, const Along& x) {
+  Along stored = 0;
+  for (const Side side : {Side::lower, Side::upper}) {
+    if (!is_soft(stops, side)) continue;
+    const auto stop = motion::soft_stop_at<Along>(stops, side);
+    const Along depth = stop.into(x - stop.position);
+    if (depth.value > 0) stored += stop.stiffness * depth * depth / 2;
+  }
+  return stored;
 }
 
 /// The observed frame, in which displacements have the motion of what is shaken beyond the computed one, or less.

@@ -6,6 +6,7 @@
 #include "observables/extremes/loose_arc.hpp"
 #include "observables/extremes/range.hpp"
 #include "observables/extremes/range_search.hpp"
+#include "observables/sensitivity/main_oscillators.hpp"
 #include "scene/smooth_effects.hpp"
 
 namespace clatter::observables {
@@ -40,25 +41,23 @@ class Search {
 template <Effects E>
 HousingExtremes extremes_with(const Course& course, const ObservedSpan& span) {
   const LooseMass& housing = span.scene.loose;
-  const motion::ArcConstants<double, E> free(span.scene.oscillator);
-  const motion::CarryingOscillator<double> carrying(free, housing);
+  const MainOscillators<double, E> oscillators(motion::ArcConstants<double, E>(span.scene.oscillator), span.scene);
   HousingExtremes extremes;
   Search x(span, extremes.x), y(span, extremes.y), z(span, extremes.z);
   for (std::size_t i = 0; i < course.size(); ++i) {
     const Stretch& stretch = course[i];
     if (!(stretch.length > 0)) continue;
-    const auto hold = [&](const auto& constants) {
-      const double place = stretch.pressed == Side::upper ? housing.upper : housing.lower;
+    oscillators.in_stretch(stretch, [&](const auto& constants) {
       const motion::Arc main(constants, stretch.start, stretch.anchor);
-      x.look_at(stretch, i, main), y.look_at(stretch, i, main, place), extremes.z.see({place, i});
-    };
-    if (stretch.pressed != Side::none) {
-      carrying.with_constants(hold);
-      continue;
-    }
-    const motion::Arc<double, E> main(free, stretch.start, stretch.anchor);
-    const motion::RelativeArc<double, E> arc(main, stretch.loose, housing.load);
-    x.look_at(stretch, i, main), y.look_at(stretch, i, LooseArc(arc)), z.look_at(i, stretch.length, arc);
+      x.look_at(stretch, i, main);
+      if (stretch.wall != Side::none) {
+        const double place = stretch.wall == Side::upper ? housing.upper : housing.lower;
+        y.look_at(stretch, i, main, place), extremes.z.see({place, i});
+      } else {
+        const motion::RelativeArc arc(main, stretch.loose, housing.load);
+        y.look_at(stretch, i, LooseArc(arc)), z.look_at(i, stretch.length, arc);
+      }
+    });
   }
   return extremes;
 }

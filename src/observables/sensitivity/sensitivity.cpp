@@ -7,7 +7,6 @@
 #include "math/dual.hpp"
 #include "motion/arc.hpp"
 #include "motion/dry_friction.hpp"
-#include "observables/energy/quadrature.hpp"
 #include "observables/sensitivity/course_extremes.hpp"
 #include "observables/sensitivity/course_slips.hpp"
 #include "observables/sensitivity/dual_motion.hpp"
@@ -178,27 +177,10 @@ class Walk {
   /// The energy that soft stops take: in contact their dampers (eq. 54), and as they relax that of their springs.
   template <Effects of>
   void lose(const Stretch& stretch, const motion::Arc<Along, of>& arc, const Motion& end, const Along& late) {
-    if (stretch.pressed != Side::none) {
-      const auto panels = static_cast<std::size_t>(std::ceil(stretch.length * arc.constants().rate.value / 2));
-      Along squares = end.v * end.v * late;
-      over_panels<20>(stretch.length, panels, [&](double s, double weight) {
-        const Along v = arc.at(Along(s)).v;
-        squares += weight * v * v;
-      });
-      lost_ += 2 * arc.constants().stop.damping * squares;
-    } else if (has_soft_stop(span_.scene.stops)) {
-      lost_ += stored_at(arc.start().x) - stored_at(state_.x);
-    }
-  }
-  [[nodiscard]] Along stored_at(const Along& x) const {
-    Along stored = 0;
-    for (const Side side : {Side::lower, Side::upper}) {
-      if (!is_soft(scene_.stops, side)) continue;
-      const auto stop = motion::soft_stop_at<Along>(scene_.stops, side);
-      const Along depth = stop.into(x - stop.position);
-      if (depth.value > 0) stored += stop.stiffness * depth * depth / 2;
-    }
-    return stored;
+    if (stretch.pressed != Side::none)
+      lost_ += 2 * arc.constants().stop.damping * squares_of_velocity(arc, stretch.length, end, late);
+    else if (has_soft_stop(span_.scene.stops))
+      lost_ += stored_by_soft_stops(scene_.stops, arc.start().x) - stored_by_soft_stops(scene_.stops, state_.x);
   }
 
   template <class Displacement>

@@ -5,12 +5,13 @@
 
 #include "math/dual.hpp"
 #include "motion/arc.hpp"
+#include "motion/linear_maps.hpp"
 #include "motion/relative_arc.hpp"
 #include "motion/walls.hpp"
 #include "observables/sensitivity/dual_motion.hpp"
 #include "observables/sensitivity/housing_extremes.hpp"
+#include "observables/sensitivity/main_oscillators.hpp"
 #include "observables/sensitivity/sensitivity_observer.hpp"
-#include "motion/linear_maps.hpp"
 #include "scene/smooth_effects.hpp"
 
 namespace clatter::observables {
@@ -34,20 +35,25 @@ class HousingWalk {
         force_(force_on_ground(scene.oscillator, scene.shaking)),
         frame_(span, scene, force_.lead),
         mass_(mass),
-        free_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude, scene.oscillator.frequency,
-                                                 scene.oscillator.load, scene.oscillator.stiffness)),
-        carrying_(free_, scene.loose),
-        rule_(scene.loose) {}
+        oscillators_(
+            motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude, scene.oscillator.frequency,
+                                               scene.oscillator.load, scene.oscillator.stiffness),
+            scene),
+        rule_(scene.loose),
+        has_stops_(has_events_of_its_own(span.scene)) {}
 
   Sensitivity::ByKey run() {
     if (is_neutral()) return {};
     begin(course_.front());
     for (std::size_t i = 0; i < course_.size(); ++i) {
+      if (course_[i].is_held) hold(course_[i]);
       check(course_[i]);
-      if (course_[i].pressed == Side::none)
-        fly(i);
-      else
-        carrying_.with_constants([&](const auto& constants) { carry(i, constants); });
+      oscillators_.in_stretch(course_[i], [&](const auto& constants) {
+        if (course_[i].wall == Side::none)
+          fly(i, constants);
+        else
+          carry(i, constants);
+      });
     }
     check(course_.front());
     return closes_ ? result() : Sensitivity::ByKey{};
@@ -61,37 +67,56 @@ class HousingWalk {
     Along phase;  ///< of the force; of it only the derivatives count
   };
 
+  using Kind = motion::Event::Kind;
+
   /// Whether no wall meets the loose mass, which is then the same motion wherever it is.
   [[nodiscard]] bool is_neutral() const {
     return std::ranges::all_of(course_, [](const Stretch& stretch) {
-      return stretch.pressed == Side::none && stretch.struck() == Side::none;
+      const auto strikes = [](const motion::Event& event) { return event.kind == Kind::strike; };
+      return stretch.wall == Side::none && std::ranges::none_of(stretch.ends, strikes);
     });
   }
   [[nodiscard]] Along place(Side wall) const { return wall == Side::upper ? scene_.loose.upper : scene_.loose.lower; }
+  [[nodiscard]] Along position(Side stop) const {
+    return stop == Side::upper ? scene_.stops.upper : scene_.stops.lower;
+  }
 
   /// At a section, in an unknown state. A wall that presses the loose mass leaves nothing of z and z'.
   void begin(const Stretch& first) {
     const motion::RelativeStart<double>& loose = first.loose;
     state_ = {Along(first.start.x, by_x), Along(first.start.v, by_v), Along(loose.origin + loose.offset, by_z),
               Along(loose.w, by_w), force_.lead};
-    if (first.pressed != Side::none) state_.z = place(first.pressed), state_.w = Along(0);
+    if (first.wall != Side::none) state_.z = place(first.wall), state_.w = Along(0);
+    if (first.is_held) stop(first.held_on);
   }
 
-  void fly(std::size_t i) {
+  /// The main mass is held from here on, if it isn't yet: on a stop, which takes what energy is left, or by friction.
+  void hold(const Stretch& stretch) {
+    if (state_.v.value == 0 && state_.v.is_constant()) return;
+    if (stretch.held_on != Side::none) lost_ += state_.v * state_.v / 2;
+    if (stretch.wall == Side::none) state_.w += state_.v;
+    stop(stretch.held_on);
+  }
+  void stop(Side on) {
+    state_.v = Along(0);
+    if (on != Side::none) state_.x = position(on);
+  }
+
+  template <Effects of>
+  void fly(std::size_t i, const motion::ArcConstants<Along, of>& constants) {
     const Stretch& stretch = course_[i];
-    const motion::Arc<Along, E> main(free_, start_of(stretch, free_), Along(stretch.anchor));
-    const motion::RelativeArc<Along, E> arc(main, start_of(stretch.loose), scene_.loose.load);
+    const motion::Arc<Along, of> main(constants, start_of(stretch, constants), Along(stretch.anchor));
+    const motion::RelativeArc<Along, of> arc(main, start_of(stretch.loose), scene_.loose.load);
     const Motion end = main.at(Along(stretch.length)), there = arc.at(Along(stretch.length));
-    const bool strikes = stretch.struck() != Side::none;
-    const Along late =
-        strikes ? with_slope_of(0, (place(stretch.struck()) - stretch.loose.origin - there.offset) / there.v.value)
-                : lateness_of_section(stretch.length);
     const State before = state_;
-    pass(stretch.length, end, late);
-    state_.z = strikes ? place(stretch.struck()) : there.x + there.v * late;
+    const Along late = lateness(i, end, there);
+    pass(stretch, end, late);
+    const bool strikes = !stretch.ends.empty() && stretch.ends.front().kind == Kind::strike;
+    state_.z = strikes ? place(stretch.ends.front().side) : there.x + there.v * late;
     state_.w = there.v + there.a * late;
+    lose(stretch, main, before, end, late);
     see(i, before, end, [&](const Along& s) { return Both{main.at(s), arc.at(s)}; });
-    meet(stretch);
+    for (const motion::Event& event : stretch.ends) meet(event, false);
   }
 
   /// Both masses as one. Where the wall would have to pull (eq. 72), x'' is the same before and after, so that a
@@ -103,11 +128,14 @@ class HousingWalk {
     const motion::Arc<Along, of> arc(constants, start_of(stretch, constants), Along(stretch.anchor));
     const Motion end = arc.at(Along(stretch.length));
     const State before = state_;
-    pass(stretch.length, end, lateness_of_section(stretch.length));
-    state_.z = place(stretch.pressed), state_.w = Along(0);
+    const Along late = lateness(i, end, end);
+    pass(stretch, end, late);
+    state_.z = place(stretch.wall), state_.w = Along(0);
+    lose(stretch, arc, before, end, late);
     see(i, before, end, [&](const Along& s) {
       return Both{arc.at(s), {.offset = 0, .x = state_.z, .v = 0, .a = 0, .sine = 0, .cosine = 0}};
     });
+    for (const motion::Event& event : stretch.ends) meet(event, true);
   }
 
   template <Effects of>
@@ -119,31 +147,114 @@ class HousingWalk {
             with_slope_of(loose.v, state_.w + state_.v)};
   }
 
-  /// By how much a section comes later: its phase over that of the force. Its value is 0, like that of an event.
-  [[nodiscard]] Along lateness_of_section(double length) const {
-    return with_slope_of(0, (force_.lead - phase_after(state_, length)) / scene_.oscillator.frequency.value);
+  /// By how much the end of a stretch comes later, of the main mass at `end` and the loose one at `there`: the surface
+  /// of its event over its rate of change. Its value is 0.
+  [[nodiscard]] Along lateness(std::size_t i, const Motion& end, const Motion& there) const {
+    const Stretch& stretch = course_[i];
+    if (stretch.ends.empty()) {
+      const bool lets_go = stretch.is_held && i + 1 < course_.size() && !course_[i + 1].is_held;
+      const Along phase = lets_go ? phase_of_release(course_[i + 1]) : force_.lead;
+      return with_slope_of(0, (phase - phase_after(state_, stretch.length)) / scene_.oscillator.frequency.value);
+    }
+    const motion::Event& event = stretch.ends.front();
+    const auto over = [](const Along& surface, double rate) { return with_slope_of(0, -surface / rate); };
+    switch (event.kind) {
+      case Kind::strike:
+        return over(there.x - place(event.side), there.v.value);
+      case Kind::impact:
+      case Kind::touch:
+        return over(end.x - position(event.side), end.v.value);
+      case Kind::renewal:
+      case Kind::separation: {
+        const Along relaxation = motion::soft_stop_at<Along>(scene_.stops, event.side).relaxation();
+        return over(end.x - position(event.side) + relaxation * end.v, end.v.value + relaxation.value * end.a.value);
+      }
+      case Kind::reversal:
+      case Kind::stick:
+        return over(end.v, end.a.value);
+      default:  // a press alone, where rounding decides
+        return Along(no_value);
+    }
+  }
+  /// The phase of the force at which the main mass is let go, where the pull on it passes the level of friction, on a
+  /// stop without friction 0 (eqs. 26 and 66).
+  [[nodiscard]] Along phase_of_release(const Stretch& next) const {
+    Along phase;
+    oscillators_.with_slips(next.wall, [&](const auto& still, const auto& slips) {
+      Along needed = still.spring(state_.x) - still.load + sign_of(next.ahead) * slips.static_level;
+      if (next.pressed != Side::none) {
+        const auto soft = motion::soft_stop_at<Along>(scene_.stops, next.pressed);
+        const Along share = next.wall == Side::none ? Along(1) : 1 / (1 + scene_.loose.ratio);
+        needed += share * soft.stiffness * (state_.x - soft.position);
+      }
+      phase = with_slope_of(0, needed / still.f / next.start.cosine);
+    });
+    return phase;
   }
   [[nodiscard]] Along phase_after(const State& from, double s) const {
     return from.phase + with_slope_of(0, scene_.oscillator.frequency * s);
   }
   /// To the end of a stretch.
-  void pass(double length, const Motion& end, const Along& late) {
-    state_.phase = phase_after(state_, length) + scene_.oscillator.frequency * late;
-    state_.x = end.x + end.v * late, state_.v = end.v + end.a * late;
+  void pass(const Stretch& stretch, const Motion& end, const Along& late) {
+    closes_ = closes_ && !std::isnan(late.value);
+    state_.phase = phase_after(state_, stretch.length) + scene_.oscillator.frequency * late;
+    const bool is_on_stop = !stretch.ends.empty() && stretch.ends.front().kind == Kind::impact;
+    if (!stretch.is_held)
+      state_.x = is_on_stop ? position(stretch.ends.front().side) : end.x + end.v * late,
+      state_.v = end.v + end.a * late;
   }
 
-  /// An impact on a wall (eq. 70), and the loss of what is left of a chatter.
-  void meet(const Stretch& stretch) {
-    if (stretch.struck() != Side::none) {
-      const Along speed = abs(state_.w), after = rule_.law_for(state_.w).after(state_.w);
-      Along& fastest = fastest_[index_of(stretch.struck())];
-      if (!(fastest.value >= speed.value)) fastest = speed;
-      lost_ += rule_.loss(state_.w, after);
-      state_.v = rule_.main_after(state_.v, state_.w), state_.w = after;
+  void see_speed(Side side, const Along& velocity) {
+    const Along speed = abs(velocity);
+    Along& fastest = fastest_[index_of(side)];
+    if (!(fastest.value >= speed.value)) fastest = speed;
+  }
+  /// The velocity of the main mass becomes another one. A loose mass keeps its own, y'.
+  void change(const Along& v) { state_.w += state_.v - v, state_.v = v; }
+
+  /// What an event does with the velocities, of both masses as one or of two. Where there are stops, speeds are those
+  /// of their contacts, else of those of the walls.
+  void meet(const motion::Event& event, bool as_one) {
+    switch (event.kind) {
+      case Kind::impact: {
+        see_speed(event.side, state_.v);
+        const Along after = restitution_at<Along>(scene_.stops, event.side).after(state_.v);
+        lost_ += (state_.v * state_.v - after * after) / 2;
+        return change(after);
+      }
+      case Kind::touch:
+        return see_speed(event.side, state_.v);
+      case Kind::reversal:
+      case Kind::stick:
+        if (as_one) return void(state_.v = Along(0));
+        return change(Along(0));
+      case Kind::strike: {  // eq. 70
+        if (!has_stops_) see_speed(event.side, state_.w);
+        const Along after = rule_.law_for(state_.w).after(state_.w);
+        lost_ += rule_.loss(state_.w, after);
+        state_.v = rule_.main_after(state_.v, state_.w), state_.w = after;
+        return;
+      }
+      case Kind::press:  // what is left of a chatter is lost
+        lost_ += rule_.loss(state_.w, Along(0));
+        state_.v = rule_.main_with(state_.v, state_.w), state_.w = Along(0);
+        return;
+      default:
+        return;
     }
-    if (!stretch.comes_to_rest) return;
-    lost_ += rule_.loss(state_.w, Along(0));
-    state_.v = rule_.main_with(state_.v, state_.w), state_.w = Along(0);
+  }
+
+  /// The energy that soft stops take: in contact their dampers (eq. 54), and as they relax that of their springs.
+  template <Effects of>
+  void lose(const Stretch& stretch, const motion::Arc<Along, of>& arc, const State& before, const Motion& end,
+            const Along& late) {
+    if (!has_soft_stop(span_.scene.stops) || stretch.is_held) return;
+    if (stretch.pressed == Side::none) {
+      lost_ += stored_by_soft_stops(scene_.stops, before.x) - stored_by_soft_stops(scene_.stops, state_.x);
+      return;
+    }
+    const Along damping = motion::soft_stop_at<Along>(scene_.stops, stretch.pressed).damping;
+    lost_ += 2 * damping * squares_of_velocity(arc, stretch.length, end, late);
   }
 
   /// The main mass, and the place of the loose one.
@@ -187,8 +298,8 @@ class HousingWalk {
   /// A course whose stretches don't follow from each other has no derivatives.
   void check(const Stretch& next) {
     const motion::RelativeStart<double>& loose = next.loose;
-    const bool is_held = next.pressed != Side::none;
-    const double z = is_held ? place(next.pressed).value : loose.origin + loose.offset, w = is_held ? 0.0 : loose.w;
+    const bool is_pressed = next.wall != Side::none;
+    const double z = is_pressed ? place(next.wall).value : loose.origin + loose.offset, w = is_pressed ? 0.0 : loose.w;
     const motion::Motion<double>& main = next.start;
     const double size = std::max({std::abs(main.x), std::abs(main.v), std::abs(z), std::abs(w)});
     const auto is_same = [&](const Along& one, double other) { return std::abs(one.value - other) <= same * size; };
@@ -229,15 +340,15 @@ class HousingWalk {
   const BasicScene<Along>& scene_;
   LeadingForce<Along> force_;
   DualFrame<Along> frame_;
-  Along mass_;                           ///< over that of the units
-  motion::ArcConstants<Along, E> free_;  ///< of the main mass alone
-  motion::CarryingOscillator<Along> carrying_;
+  Along mass_;  ///< over that of the units
+  MainOscillators<Along, E> oscillators_;
   motion::WallRule<Along> rule_;
+  bool has_stops_;  ///< or friction, of the main mass
   State state_{};
   bool closes_ = true;
   Least x_{}, y_{}, z_{};
   Along lost_{};
-  std::array<Along, 2> fastest_{no_derivative(), no_derivative()};  ///< [wall]
+  std::array<Along, 2> fastest_{no_derivative(), no_derivative()};  ///< [stop, or wall]
 
   [[nodiscard]] static Along no_derivative() {
     Along none(no_value);

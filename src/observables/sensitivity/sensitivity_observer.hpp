@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "motion/event.hpp"
@@ -35,10 +36,12 @@ class Sensitivity::Observer {
       // the sign of the friction, of 0 too, is against the velocity
       const Side ahead = std::signbit(arc.constants().friction) ? Side::upper : Side::lower;
       course_.push_back({arc.start(), arc.anchor(), begin, length, Side::none, ahead});
-      if constexpr (motion::Housed<A>)
+      if constexpr (A::effects.stiffness) course_.back().pressed = arc.constants().stop.side;
+      if constexpr (motion::Housed<A>) {
         add_loose(arc.loose);
-      else if constexpr (A::effects.stiffness)
-        course_.back().pressed = arc.constants().stop.side;
+        if (held_) course_.back().is_held = true, course_.back().held_on = held_->side;
+        held_.reset();
+      }
     }
   }
   void event(const motion::Event& event) {
@@ -67,11 +70,14 @@ class Sensitivity::Observer {
   void add_loose(const motion::RelativeArc<double, E>& loose) {
     course_.back().loose = {loose.anchor(), loose.start().offset, loose.start().v, loose.velocity(0.0)};
   }
-  void add_loose(const motion::Pressed& loose) { course_.back().pressed = loose.wall; }
-  /// A loose mass strikes a wall, or comes to rest on it.
+  void add_loose(const motion::Pressed& loose) { course_.back().wall = loose.wall; }
+  /// With a loose mass: the arc that follows shows a time for which the main one is held. A stick ends the slip before.
   void end_housed(const motion::Event& event) {
-    if (event.kind == motion::Event::Kind::strike) end_with(event);
-    if (event.kind == motion::Event::Kind::press && !course_.empty()) course_.back().comes_to_rest = true;
+    if (event.kind == motion::Event::Kind::hold) return;
+    if (event.lasts()) held_ = event;
+    if (course_.empty() || (event.lasts() && !event.is_stick())) return;
+    Stretch& last = course_.back();
+    if (!event.is_stick() || (!last.is_held && last.ends.empty())) last.ends.push_back(event);
   }
   void end_with(const motion::Event& event) {
     if (!course_.empty()) course_.back().end = event;
@@ -81,6 +87,7 @@ class Sensitivity::Observer {
   bool is_sought_, is_housed_;
   Stability::Observer stability_;  ///< tells grazes
   Course course_{};
+  std::optional<motion::Event> held_{};  ///< a time for which the main mass is held, whose arc comes next
 };
 
 }  // namespace clatter::observables

@@ -1,0 +1,41 @@
+"""Derivatives of periodic motion with a loose mass beside stops, soft stops and friction of the main mass.
+
+Environment: CLATTER, the program; CLATTER_SENSITIVITY, COUNT or COUNT:SEED of random scenes.
+"""
+
+import random
+import unittest
+
+from loose_mass_sensitivity_test import OfRandomScenes, carrying
+
+
+def beside_stops(draw):
+    """A scene with a loose mass whose main mass meets something, too."""
+    scene = {key: value for key, value in carrying(draw).items() if key not in ("base_amplitude", "stop_phase")}
+    scene |= {"stop_lower": -draw.uniform(0.2, 0.6), "stop_upper": draw.uniform(0.2, 0.6), "R": draw.uniform(0.2, 0.9)}
+    scene["stiffness"] = draw.choice([scene["stiffness"], scene["stiffness"], 0.0, -0.2])
+    for side in ("lower", "upper"):
+        if draw.random() < 0.3:
+            scene |= {f"stop_stiffness_{side}": draw.uniform(5, 50), f"stop_damping_{side}": draw.uniform(0, 1)}
+    if draw.random() < 0.3:
+        scene["friction"] = draw.uniform(0.02, 0.15)
+        scene["friction_static"] = scene["friction"] * draw.choice([1.0, draw.uniform(1, 1.5)])
+    return scene
+
+
+def drawn(count, seed):
+    draw = random.Random(f"{seed} beside stops")
+    return [beside_stops(draw) for _ in range(count)]
+
+
+class BesideStops(OfRandomScenes):
+    drawn = staticmethod(drawn)
+    test_a_mirrored_scene_has_mirrored_ones = None
+
+
+def load_tests(loader, _tests, _pattern):
+    return loader.loadTestsFromTestCase(BesideStops)
+
+
+if __name__ == "__main__":
+    unittest.main()
