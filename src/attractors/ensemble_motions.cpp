@@ -40,6 +40,16 @@ Side edge_under(const Scene& scene, const SectionState& state) {
   return has_friction(scene.friction) && state.v == 0 ? band_edge_at(scene, state.x) : Side::none;
 }
 
+/// Whether no wall meets a loose mass for as long as a motion is looked at: what then moves is the main mass alone.
+bool floats_for_long(const point::Problem& problem, const SectionState& state) {
+  if (!has_loose_mass(problem.loose)) return false;
+  for (const std::size_t look : {VisitedCells::short_look, VisitedCells::at_once}) {
+    const auto sections = run_sections(started(problem, state, 0.0), look);
+    if (!sections || sections->meets_walls) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& problem, const Ending& ending) {
@@ -74,9 +84,14 @@ void EnsembleMotions::restore(const point::Problem& problem, const Ending& endin
     motion.periodic = standstill(problem, ending.state.x);
   } else if (ending.periods > 0) {
     motion.periodic = periodic_motion(problem, ending.state, static_cast<std::size_t>(ending.periods));
-  } else if (const auto sections = run_sections(started(problem, ending.state, 0.0), VisitedCells::long_look)) {
-    motion.cells = VisitedCells(sections->states);
-    motion.symmetric = is_symmetric(problem) && visits_mirror(problem, motion);
+  } else {
+    motion.floats = floats_for_long(problem, ending.state);
+    const point::Problem its = motion.floats ? without_loose_mass(problem) : problem;
+    if (motion.floats) motion.state = {ending.state.x, ending.state.v};
+    if (const auto sections = run_sections(started(its, motion.state, 0.0), VisitedCells::long_look)) {
+      motion.cells = VisitedCells(sections->states);
+      motion.symmetric = is_symmetric(its) && visits_mirror(its, motion);
+    }
   }
   add(std::move(motion));
 }
@@ -98,20 +113,26 @@ std::optional<std::size_t> EnsembleMotions::periodic_of(const point::Problem& pr
   return add({.periodic = std::move(motion), .state = first});
 }
 
-std::optional<std::size_t> EnsembleMotions::visiting(std::span<const SectionState> states) const {
+std::optional<std::size_t> EnsembleMotions::visiting(std::span<const SectionState> states, bool floats) const {
   for (std::size_t i = 0; i < motions_.size(); ++i)
-    if (!motions_[i].periodic && motions_[i].cells.are_visited_by(states)) return i;
+    if (!motions_[i].periodic && motions_[i].floats == floats && motions_[i].cells.are_visited_by(states)) return i;
   return std::nullopt;
+}
+
+std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& problem, const SectionState& state) {
+  if (!floats_for_long(problem, state)) return aperiodic_of(problem, state, false);
+  return aperiodic_of(without_loose_mass(problem), {state.x, state.v}, true);
 }
 
 /// A short look tells most motions from those that are known, a long one those that stay in a part of the cells for
 /// long.
-std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& problem, const SectionState& state) {
+std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& problem, const SectionState& state,
+                                                         bool floats) {
   const bool has_known = std::ranges::any_of(motions_, [](const Motion& motion) { return !motion.periodic; });
   if (has_known) {
     const auto sections = run_sections(started(problem, state, 0.0), VisitedCells::short_look);
     if (!sections) return std::nullopt;
-    if (const auto known = visiting(sections->states)) return known;
+    if (const auto known = visiting(sections->states, floats)) return known;
   }
   std::vector<SectionState> states;
   double log_area = 0.0;
@@ -122,14 +143,17 @@ std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& p
     if (!sections) return std::nullopt;
     last = sections->states.back(), log_area += sections->log_area;
     if (may_repeat && sections->repeats_after > 0) {
-      if (const auto periodic = periodic_of(problem, last, sections->repeats_after)) return periodic;
+      if (const auto periodic = periodic_of(problem, last, sections->repeats_after)) {
+        motions_[*periodic].periodic->floats = floats;
+        return periodic;
+      }
       may_repeat = false;  // by rounding alone, and so it would again
     }
-    if (const auto known = visiting(sections->states)) return known;
+    if (const auto known = visiting(sections->states, floats)) return known;
     states.insert(states.end(), sections->states.begin(), sections->states.end());
   }
   if (!(log_area < -1e-12)) return std::nullopt;  // nothing attracts it
-  Motion motion{.state = state, .cells = VisitedCells(states)};
+  Motion motion{.state = state, .cells = VisitedCells(states), .floats = floats};
   motion.symmetric = is_symmetric(problem) && visits_mirror(problem, motion);
   return add(std::move(motion));
 }

@@ -24,6 +24,7 @@ struct Motion {
   SectionState state{};                      ///< at forcing phase 0
   VisitedCells cells{};                      ///< of motion without a period
   bool symmetric = false;                    ///< motion without a period visits the cells of its mirror image
+  bool floats = false;                       ///< no wall meets a loose mass: it is one of the main mass alone
   bool sticks = false;                       ///< dry friction holds the mass for good, here or at any place of a band
   Side creeps_to = Side::none;               ///< the edge of that band to which the mass creeps
 
@@ -46,16 +47,17 @@ class EnsembleMotions {
 
   /// The periodic motion that passes a state at forcing phase 0.
   [[nodiscard]] std::optional<std::size_t> passing(const SectionState& state) const;
-  /// The mass that friction holds for good, or the loose mass that no wall meets.
+  /// The mass that friction holds for good.
   [[nodiscard]] std::optional<std::size_t> band() const { return band_; }
-  /// The motion without a period in whose cells most of some successive states lie.
-  [[nodiscard]] std::optional<std::size_t> visiting(std::span<const SectionState> states) const;
+  /// The motion without a period in whose cells most of some successive states lie; `floats`: of the main mass alone.
+  [[nodiscard]] std::optional<std::size_t> visiting(std::span<const SectionState> states, bool floats) const;
 
   [[nodiscard]] const std::vector<Motion>& motions() const { return motions_; }
 
  private:
   std::optional<std::size_t> periodic_of(const point::Problem& problem, const SectionState& state, std::size_t periods);
   std::optional<std::size_t> aperiodic_of(const point::Problem& problem, const SectionState& state);
+  std::optional<std::size_t> aperiodic_of(const point::Problem& problem, const SectionState& state, bool floats);
   std::size_t add(Motion motion);
 
   [[nodiscard]] bool visits_mirror(const point::Problem& problem, const Motion& motion) const;

@@ -137,6 +137,7 @@ std::optional<Sections> run_sections(const point::Problem& problem, std::size_t 
     if (motion->advance_to_section(state, state.periods, recorder) != stepping::Outcome::completed) return std::nullopt;
     const double log_area = recorder.watch.passage().log_area - 2 * problem.oscillator.damping * motion->period();
     sections.log_area += log_area;
+    sections.meets_walls = sections.meets_walls || recorder.watch.passage().loose_size > 0 || state.loose.pressed;
     sections.states.push_back(section_of(problem, state));
     sections.repeats_after = repeat.add(sections.states.back(), log_area, recorder.watch.passage());
   }

@@ -54,6 +54,7 @@ struct Round {
 struct Sections {
   std::vector<SectionState> states;  ///< after 1, 2, … periods, until the motion repeats
   std::size_t repeats_after = 0;     ///< forcing periods; 0: it doesn't repeat
+  bool meets_walls = false;          ///< with a loose mass
   double log_area =
       0.0;  ///< logarithm of the factor by which all of them changed a small area of states; with a loose mass volume
 };

@@ -276,9 +276,10 @@ class Numberer {
   /// The instance of the same ensemble that is the mirror image of another one.
   [[nodiscard]] std::optional<std::uint32_t> mirror_of(std::uint32_t instance) const {
     const std::size_t ensemble = instances_[instance].ensemble;
-    const point::Problem problem = parameters_of(ensemble);
     const EnsembleMotions motions = found_again(ensemble);
     const Motion& motion = motions.motions()[instance - begins_[ensemble]];
+    const point::Problem problem =
+        motion.floats ? without_loose_mass(parameters_of(ensemble)) : parameters_of(ensemble);
     const auto state = mirrored(problem, instances_[instance].state);
     if (!state) return std::nullopt;
     std::optional<std::size_t> met;
@@ -287,7 +288,7 @@ class Numberer {
     } else if (motion.symmetric) {
       return instance;
     } else if (const auto sections = run_sections(started(problem, *state, 0.0), VisitedCells::long_look)) {
-      met = motions.visiting(sections->states);
+      met = motions.visiting(sections->states, motion.floats);
     }
     return met ? std::optional(begins_[ensemble] + static_cast<std::uint32_t>(*met)) : std::nullopt;
   }

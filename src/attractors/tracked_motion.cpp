@@ -50,10 +50,10 @@ double place_of_rest(const point::Problem& from, const point::Problem& to, doubl
 TrackedMotion::TrackedMotion(const point::Problem& problem, const Motion& motion)
     : at_(problem), state_(motion.state), periods_(motion.periods()), symmetric_(motion.symmetric) {
   sticks_ = motion.sticks, creeps_to_ = motion.creeps_to;
+  floats_ = motion.floats || (motion.periodic && motion.periodic->floats);
+  if (floats_) at_ = without_loose_mass(problem);
   if (!motion.periodic) return;
   const PeriodicMotion& periodic = *motion.periodic;
-  floats_ = periodic.floats;
-  if (floats_) at_ = without_loose_mass(problem);
   word_ = periodic.word, size_ = periodic.size;
   state_ = periodic.cycle[static_cast<std::size_t>(periodic.middle_of_flight)];
   phase_turns_ = periodic.middle_of_flight - std::floor(periodic.middle_of_flight);
@@ -145,7 +145,7 @@ bool TrackedMotion::move_section(const point::Problem& problem, const Round& rou
 std::optional<std::size_t> TrackedMotion::among(const EnsembleMotions& motions) const {
   if (sticks_) return motions.band();
   if (!is_periodic()) {
-    const auto met = motions.visiting(states_);
+    const auto met = motions.visiting(states_, floats_);
     return met && motions.motions()[*met].symmetric == symmetric_ ? met : std::nullopt;
   }
   if (at_.oscillator.forcing == 0 || creeps_to_ != Side::none) return motions.passing(state_);

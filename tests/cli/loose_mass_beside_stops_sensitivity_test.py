@@ -12,10 +12,12 @@ from loose_mass_sensitivity_test import OfRandomScenes, carrying
 def beside_stops(draw):
     """A scene with a loose mass whose main mass meets something, too."""
     scene = {key: value for key, value in carrying(draw).items() if key not in ("base_amplitude", "stop_phase")}
-    scene |= {"stop_lower": -draw.uniform(0.2, 0.6), "stop_upper": draw.uniform(0.2, 0.6), "R": draw.uniform(0.2, 0.9)}
+    scene |= {"stop_lower": -draw.uniform(0.2, 0.6), "stop_upper": draw.uniform(0.2, 0.6)}
     scene["stiffness"] = draw.choice([scene["stiffness"], scene["stiffness"], 0.0, -0.2])
     for side in ("lower", "upper"):
+        scene[f"R_{side}"] = draw.uniform(0.2, 0.9)
         if draw.random() < 0.3:
+            del scene[f"R_{side}"]
             scene |= {f"stop_stiffness_{side}": draw.uniform(5, 50), f"stop_damping_{side}": draw.uniform(0, 1)}
     if draw.random() < 0.3:
         scene["friction"] = draw.uniform(0.02, 0.15)
