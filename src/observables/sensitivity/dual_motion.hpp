@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "motion/arc.hpp"
+#include "motion/event.hpp"
 #include "motion/soft_stop.hpp"
 #include "observables/energy/quadrature.hpp"
 #include "observables/observable.hpp"
@@ -31,6 +33,37 @@ template <class Along, Effects E>
   return {offset, x, v, with_slope_of(m.a, a), sine, cosine};
 }
 
+template <class Along>
+[[nodiscard]] const Along& position_of(const BasicStops<Along>& stops, Side side) {
+  return side == Side::upper ? stops.upper : stops.lower;
+}
+
+/// By how much an event of the main mass comes later, of a motion that has arrived at it along an arc: its surface
+/// (eqs. 4 and 50; of a slip the velocity) over the rate of change. Its value is 0; it is NaN of an event without a
+/// surface.
+template <class Along>
+[[nodiscard]] Along lateness_of(const motion::Event& event, const motion::Motion<Along>& end, double anchor,
+                                const BasicStops<Along>& stops) {
+  using Kind = motion::Event::Kind;
+  const auto over = [](const Along& surface, double rate) { return with_slope_of(0, -surface / rate); };
+  const auto beyond = [&] { return end.offset + anchor - position_of(stops, event.side); };
+  switch (event.kind) {
+    case Kind::impact:
+    case Kind::touch:
+      return over(beyond(), end.v.value);
+    case Kind::renewal:
+    case Kind::separation: {
+      const Along relaxation = motion::soft_stop_at<Along>(stops, event.side).relaxation();
+      return over(beyond() + relaxation * end.v, end.v.value + relaxation.value * end.a.value);
+    }
+    case Kind::reversal:
+    case Kind::stick:
+      return over(end.v, end.a.value);
+    default:
+      return Along(no_value);
+  }
+}
+
 /// The integral of the squared velocity along an arc, whose end comes later by `late`.
 template <class Along, Effects E>
 [[nodiscard]] Along squares_of_velocity(const motion::Arc<Along, E>& arc, double length,
@@ -43,6 +76,26 @@ template <class Along, Effects E>
   });
   return squares;
 }
+
+/// The greatest speed of contacts on each stop or wall; NaN of one that is not met.
+template <class Along>
+class FastestContacts {
+ public:
+  void see(Side side, const Along& velocity) {
+    const Along speed = abs(velocity);
+    Along& fastest = of_side_[index_of(side)];
+    if (!(fastest.value >= speed.value)) fastest = speed;
+  }
+  [[nodiscard]] const Along& of(Side side) const { return of_side_[index_of(side)]; }
+
+ private:
+  [[nodiscard]] static Along none() {
+    Along none(no_value);
+    none.slope.fill(no_value);
+    return none;
+  }
+  std::array<Along, 2> of_side_{none(), none()};
+};
 
 /// The energy that the springs of soft stops hold, of a mass at x.
 template <class Along>

@@ -57,9 +57,7 @@ class Walk {
     Along phase;  ///< of the force in the moving frame, rad; of it only the derivatives count
   };
 
-  [[nodiscard]] Along position(Side side) const {
-    return side == Side::upper ? scene_.stops.upper : scene_.stops.lower;
-  }
+  [[nodiscard]] const Along& position(Side side) const { return position_of(scene_.stops, side); }
 
   /// The first stretch to follow. A rest forgets all that went before, so that the course of a motion that rests is
   /// followed from a release on; any other begins at a section, with an unknown state. Motion that stands for ever
@@ -146,14 +144,7 @@ class Walk {
   /// the phase of a section, over its rate of change. Its value is 0.
   [[nodiscard]] Along lateness(const Stretch& stretch, const Motion& end, const Along& phase) const {
     if (!stretch.end) return with_slope_of(0, (force_.lead - phase) / scene_.oscillator.frequency.value);
-    if (ends_slip(*stretch.end)) return with_slope_of(0, -end.v / end.a.value);
-    const Side side = stretch.end->side;
-    const Along beyond = end.offset + stretch.anchor - position(side);
-    if (stretch.end->kind == Event::Kind::impact || stretch.end->kind == Event::Kind::touch)
-      return with_slope_of(0, -beyond / end.v.value);
-    const auto stop = motion::soft_stop_at<Along>(scene_.stops, side);
-    const Along relaxation = stop.relaxation();
-    return with_slope_of(0, -(beyond + relaxation * end.v) / (end.v.value + relaxation.value * end.a.value));
+    return lateness_of(*stretch.end, end, stretch.anchor, scene_.stops);
   }
 
   [[nodiscard]] static bool ends_slip(const Event& event) {
@@ -162,11 +153,7 @@ class Walk {
 
   /// What an event does with the velocity.
   void meet(const Event& event) {
-    if (event.kind == Event::Kind::impact || event.kind == Event::Kind::touch) {
-      const Along speed = abs(state_.v);
-      Along& fastest = fastest_[index_of(event.side)];
-      if (!(fastest.value >= speed.value)) fastest = speed;
-    }
+    if (event.kind == Event::Kind::impact || event.kind == Event::Kind::touch) fastest_.see(event.side, state_.v);
     if (ends_slip(event)) state_.v = Along(0);
     if (event.kind != Event::Kind::impact) return;
     const Along after = restitution_at<Along>(scene_.stops, event.side).after(state_.v);
@@ -211,7 +198,7 @@ class Walk {
     return {total(least_),
             total(greatest_),
             total(period),
-            {total(fastest_[0]), total(fastest_[1])},
+            {total(fastest_.of(Side::lower)), total(fastest_.of(Side::upper))},
             total(lost_ * mass_ / period)};
   }
 
@@ -229,13 +216,7 @@ class Walk {
   State state_{}, first_{};
   bool stands_ = false, forgets_ = false, closes_ = true;
   Along least_{}, greatest_{}, lost_{};
-  std::array<Along, 2> fastest_{no_derivative(), no_derivative()};  ///< [stop]
-
-  [[nodiscard]] static Along no_derivative() {
-    Along none(no_value);
-    none.slope.fill(no_value);
-    return none;
-  }
+  FastestContacts<Along> fastest_{};
 };
 
 /// Nothing is known of where a loose mass that begins would strike.

@@ -77,9 +77,7 @@ class HousingWalk {
     });
   }
   [[nodiscard]] Along place(Side wall) const { return wall == Side::upper ? scene_.loose.upper : scene_.loose.lower; }
-  [[nodiscard]] Along position(Side stop) const {
-    return stop == Side::upper ? scene_.stops.upper : scene_.stops.lower;
-  }
+  [[nodiscard]] const Along& position(Side stop) const { return position_of(scene_.stops, stop); }
 
   /// At a section, in an unknown state. A wall that presses the loose mass leaves nothing of z and z'.
   void begin(const Stretch& first) {
@@ -157,24 +155,8 @@ class HousingWalk {
       return with_slope_of(0, (phase - phase_after(state_, stretch.length)) / scene_.oscillator.frequency.value);
     }
     const motion::Event& event = stretch.ends.front();
-    const auto over = [](const Along& surface, double rate) { return with_slope_of(0, -surface / rate); };
-    switch (event.kind) {
-      case Kind::strike:
-        return over(there.x - place(event.side), there.v.value);
-      case Kind::impact:
-      case Kind::touch:
-        return over(end.x - position(event.side), end.v.value);
-      case Kind::renewal:
-      case Kind::separation: {
-        const Along relaxation = motion::soft_stop_at<Along>(scene_.stops, event.side).relaxation();
-        return over(end.x - position(event.side) + relaxation * end.v, end.v.value + relaxation.value * end.a.value);
-      }
-      case Kind::reversal:
-      case Kind::stick:
-        return over(end.v, end.a.value);
-      default:  // a press alone, where rounding decides
-        return Along(no_value);
-    }
+    if (event.kind == Kind::strike) return with_slope_of(0, -(there.x - place(event.side)) / there.v.value);
+    return lateness_of(event, end, stretch.anchor, scene_.stops);
   }
   /// The phase of the force at which the main mass is let go, where the pull on it passes the level of friction, on a
   /// stop without friction 0 (eqs. 26 and 66).
@@ -204,11 +186,6 @@ class HousingWalk {
       state_.v = end.v + end.a * late;
   }
 
-  void see_speed(Side side, const Along& velocity) {
-    const Along speed = abs(velocity);
-    Along& fastest = fastest_[index_of(side)];
-    if (!(fastest.value >= speed.value)) fastest = speed;
-  }
   /// The velocity of the main mass becomes another one. A loose mass keeps its own, y'.
   void change(const Along& v) { state_.w += state_.v - v, state_.v = v; }
 
@@ -217,19 +194,19 @@ class HousingWalk {
   void meet(const motion::Event& event, bool as_one) {
     switch (event.kind) {
       case Kind::impact: {
-        see_speed(event.side, state_.v);
+        fastest_.see(event.side, state_.v);
         const Along after = restitution_at<Along>(scene_.stops, event.side).after(state_.v);
         lost_ += (state_.v * state_.v - after * after) / 2;
         return change(after);
       }
       case Kind::touch:
-        return see_speed(event.side, state_.v);
+        return fastest_.see(event.side, state_.v);
       case Kind::reversal:
       case Kind::stick:
         if (as_one) return void(state_.v = Along(0));
         return change(Along(0));
       case Kind::strike: {  // eq. 70
-        if (!has_stops_) see_speed(event.side, state_.w);
+        if (!has_stops_) fastest_.see(event.side, state_.w);
         const Along after = rule_.law_for(state_.w).after(state_.w);
         lost_ += rule_.loss(state_.w, after);
         state_.v = rule_.main_after(state_.v, state_.w), state_.w = after;
@@ -324,7 +301,7 @@ class HousingWalk {
     return {.x_min = total(x_[0]),
             .x_max = total(x_[1]),
             .period = total(period),
-            .impact_speed = {total(fastest_[0]), total(fastest_[1])},
+            .impact_speed = {total(fastest_.of(Side::lower)), total(fastest_.of(Side::upper))},
             .impact_power = total(lost_ * mass_ / period),
             .y_min = total(y_[0]),
             .y_max = total(y_[1]),
@@ -348,13 +325,7 @@ class HousingWalk {
   bool closes_ = true;
   Least x_{}, y_{}, z_{};
   Along lost_{};
-  std::array<Along, 2> fastest_{no_derivative(), no_derivative()};  ///< [stop, or wall]
-
-  [[nodiscard]] static Along no_derivative() {
-    Along none(no_value);
-    none.slope.fill(no_value);
-    return none;
-  }
+  FastestContacts<Along> fastest_{};
 };
 
 }  // namespace
