@@ -128,7 +128,7 @@ void require_possible(const FileSummary::Entry& status, std::uint64_t stored_byt
 /// The number of values of a variable with each of its flags, in the order of flag_values.
 std::vector<std::pair<std::string, std::size_t>> flag_counts(const Handle& dataset) {
   std::array<std::size_t, 256> counts{};
-  std::vector<std::uint8_t> values(detail::largest_block);
+  std::vector<std::uint8_t> values(detail::values_in_block(dataset, 1));
   detail::read_blocks(dataset, H5T_NATIVE_UINT8, values.data(), [&](std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) ++counts[values[i]];
   });

@@ -139,11 +139,28 @@ class Parts {
   std::uint64_t size_ = 0;
 };
 
+/// Reads headers one after the other, many at once: most are a few bytes apart.
+class Headers {
+ public:
+  explicit Headers(const Parts& file) : file_{file} {}
+
+  /// That at a place, or the part of it that the file has.
+  [[nodiscard]] std::string_view at(std::uint64_t place) {
+    if (place < begin_ || place + header > begin_ + read_.size()) begin_ = place, read_ = file_.read(place, memory_);
+    return read_.substr(static_cast<std::size_t>(place - begin_), header);
+  }
+
+ private:
+  const Parts& file_;
+  std::array<char, 4096> memory_{};
+  std::uint64_t begin_ = 0;
+  std::string_view read_{};
+};
+
 /// Walks the objects from `at` to `end` as the library does; true if every step leads forward and none beyond the end.
-bool is_sound(const Parts& file, std::uint64_t at, std::uint64_t end) {
-  std::array<char, header> bytes{};
+bool is_sound(Headers& headers, std::uint64_t at, std::uint64_t end) {
   while (end - at >= header) {
-    const std::string_view object = file.read(at, bytes);
+    const std::string_view object = headers.at(at);
     if (object.size() < header) return false;
     const auto index = little_endian<std::uint16_t>(object);
     const auto size = little_endian<std::uint64_t>(object.substr(8));
@@ -156,11 +173,11 @@ bool is_sound(const Parts& file, std::uint64_t at, std::uint64_t end) {
 }
 
 void require_sound_heap(const Parts& file, std::uint64_t at) {
-  std::array<char, header> bytes{};
-  const std::string_view collection = file.read(at, bytes);
+  Headers headers{file};
+  const std::string_view collection = headers.at(at);
   if (collection.size() < header) return;
   const auto size = little_endian<std::uint64_t>(collection.substr(8));
-  if (size < header || size > file.size() - at || !is_sound(file, at + header, at + size))
+  if (size < header || size > file.size() - at || !is_sound(headers, at + header, at + size))
     throw Failure{"a heap of texts at byte " + std::to_string(at) + " is damaged"};
 }
 
@@ -202,7 +219,7 @@ Handle open_variable(hid_t file, const std::string& name) {
 void require_sound_heaps(const std::string& path) {
   const Parts file{path};
   constexpr std::size_t overlap = signature.size() - 1;
-  std::vector<char> piece(std::size_t{1} << 20U);
+  std::vector<char> piece(std::min(file.size() + 1, std::uint64_t{1} << 20U));  // no more, since each byte is zeroed
   for (std::uint64_t begin = file.next_stored(0); begin < file.size(); begin = file.next_stored(begin)) {
     const std::string_view bytes = file.read(begin, piece);
     for (std::size_t at = 0; (at = bytes.find(signature, at)) != std::string_view::npos; at += header)

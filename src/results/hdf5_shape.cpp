@@ -62,6 +62,11 @@ void each_block(const Shape& shape, std::size_t value_size,
   } while (advance(begin, blocks, shape));
 }
 
+std::size_t values_in_block(hid_t dataset, std::size_t value_size) {
+  const Shape shape = shape_of(dataset);
+  return count(shape) == 0 ? 0 : count(blocks_of(shape, value_size));
+}
+
 Handle room_for(std::size_t values) {
   const hsize_t length = values;
   return {H5Screate_simple(1, &length, nullptr), H5Sclose};

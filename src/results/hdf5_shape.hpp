@@ -36,7 +36,11 @@ void each_block(const Shape& shape, std::size_t value_size,
 /// The space of so many values in memory.
 [[nodiscard]] Handle room_for(std::size_t values);
 
-/// Reads a variable block by block into `memory` of `largest_block` bytes, as values of `type` and with the properties
+/// The number of values in the largest block of a variable: its memory, where a whole megabyte would be zeroed for a
+/// few numbers each time.
+[[nodiscard]] std::size_t values_in_block(hid_t dataset, std::size_t value_size);
+
+/// Reads a variable block by block into `memory` for `values_in_block`, as values of `type` and with the properties
 /// `transfer`, and calls `take(number of values)` after each. Throws Failure.
 void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<void(std::size_t)>& take,
                  hid_t transfer = H5P_DEFAULT);

@@ -101,8 +101,9 @@ ValueArray rows_of(hid_t dataset, std::size_t first, std::size_t rows) {
 
 void try_values(hid_t dataset) {
   if (is_text(dataset)) return try_texts(dataset);
-  std::vector<std::byte> memory(largest_block);
   const Handle type{H5Dget_type(dataset), H5Tclose}, native{H5Tget_native_type(type, H5T_DIR_ASCEND), H5Tclose};
+  const std::size_t bytes = H5Tget_size(native);
+  std::vector<std::byte> memory(values_in_block(dataset, bytes) * bytes);
   read_blocks(dataset, native, memory.data(), [](std::size_t) {});
 }
 

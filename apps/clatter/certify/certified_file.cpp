@@ -43,6 +43,12 @@ std::vector<std::string> names_of(const std::vector<results::NamedLength>& dimen
   return names;
 }
 
+double number_of_values(const results::FileSummary::Entry& entry) {
+  double values = 1.0;
+  for (const results::NamedLength& dimension : entry.dimensions) values *= static_cast<double>(dimension.length);
+  return values;
+}
+
 /// Whether a point's result depends on which others are run: motions are numbered from one to the next, and one of two
 /// mirror images is the other's.
 bool depends_on_others(const sweep::Sweep& sweep) {
@@ -81,13 +87,21 @@ CertifiedFile::Anew CertifiedFile::run(const sweep::Sweep& sweep, int threads) c
   return {PointRows(std::move(result.dataset), std::move(dimensions), known.size()), std::move(known)};
 }
 
-/// The results of some points in the file that a run has, too.
+/// The results of some points in the file that a run has, too. To open a file takes longer than to read a few results,
+/// but all of a large one at once would take its memory.
 PointRows CertifiedFile::stored(const std::vector<std::size_t>& points) const {
-  std::vector<std::string> names;
-  for (const results::Variable& variable : sweep::description(sweep_).variables)
-    if (find_variable(summary_, variable.name) != nullptr) names.push_back(variable.name);
+  constexpr double most_at_once = 1e6;  // values
+  std::vector<std::vector<std::string>> groups;
+  double in_group = 0.0;
+  for (const results::Variable& variable : sweep::description(sweep_).variables) {
+    const results::FileSummary::Entry* const entry = find_variable(summary_, variable.name);
+    if (entry == nullptr) continue;
+    const double values = number_of_values(*entry);
+    if (groups.empty() || in_group + values > most_at_once) groups.emplace_back(), in_group = 0.0;
+    groups.back().push_back(variable.name), in_group += values;
+  }
   const auto read = [this](const std::vector<std::string>& some) { return results::read_variables(path_, some); };
-  return PointRows::chosen(names, names_of(dimensions_of_points(summary_, path_)), size(sweep_), points, read);
+  return PointRows::chosen(groups, names_of(dimensions_of_points(summary_, path_)), size(sweep_), points, read);
 }
 
 certificates::Tally CertifiedFile::certify(const std::vector<std::size_t>& points,

@@ -46,19 +46,22 @@ PointRows::PointRows(results::Dataset dataset, std::vector<std::string> dimensio
     logged_.push_back(logged_.back() + static_cast<std::size_t>(std::max<std::int64_t>(count, 0)));
 }
 
-PointRows PointRows::chosen(const std::vector<std::string>& names, std::vector<std::string> dimensions,
+PointRows PointRows::chosen(const std::vector<std::vector<std::string>>& groups, std::vector<std::string> dimensions,
                             std::size_t points, const std::vector<std::size_t>& chosen,
                             const std::function<results::Dataset(const std::vector<std::string>&)>& read) {
   std::vector<std::string> lengths;  // without which no row is found
   for (const char* const name : {"impact_count", "attractor"})
-    if (std::ranges::find(names, name) != names.end()) lengths.emplace_back(name);
+    for (const std::vector<std::string>& names : groups)
+      if (std::ranges::find(names, name) != names.end()) lengths.emplace_back(name);
   const PointRows all(lengths.empty() ? results::Dataset{} : read(lengths), dimensions, points);
   results::Dataset dataset;
-  for (const std::string& name : names) {
-    Variable variable = std::move(read({name}).variables.at(0));
-    if (!all.has_rows(variable)) continue;
-    if (!is_over(variable, ended_motions)) variable.values = values_of(all, variable, chosen);
-    dataset.variables.push_back(std::move(variable));
+  for (const std::vector<std::string>& names : groups) {
+    results::Dataset group = read(names);
+    for (Variable& variable : group.variables) {
+      if (!all.has_rows(variable)) continue;
+      if (!is_over(variable, ended_motions)) variable.values = values_of(all, variable, chosen);
+      dataset.variables.push_back(std::move(variable));
+    }
   }
   return {std::move(dataset), std::move(dimensions), chosen.size()};
 }

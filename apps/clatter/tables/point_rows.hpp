@@ -17,9 +17,10 @@ class PointRows {
   /// The results in a dataset of so many points, whose dimensions these are.
   PointRows(results::Dataset dataset, std::vector<std::string> dimensions, std::size_t points);
 
-  /// The results of some points alone, which are counted anew; `read` gives their variables one at a time.
-  [[nodiscard]] static PointRows chosen(const std::vector<std::string>& names, std::vector<std::string> dimensions,
-                                        std::size_t points, const std::vector<std::size_t>& chosen,
+  /// The results of some points alone, which are counted anew; `read` gives their variables a group at a time.
+  [[nodiscard]] static PointRows chosen(const std::vector<std::vector<std::string>>& groups,
+                                        std::vector<std::string> dimensions, std::size_t points,
+                                        const std::vector<std::size_t>& chosen,
                                         const std::function<results::Dataset(const std::vector<std::string>&)>& read);
 
   [[nodiscard]] const results::Dataset& dataset() const { return dataset_; }
