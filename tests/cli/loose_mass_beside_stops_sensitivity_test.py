@@ -7,6 +7,7 @@ import random
 import unittest
 
 from loose_mass_sensitivity_test import OfRandomScenes, carrying
+from loose_mass_sensitivity_test import machine_of as loose_machine_of
 
 
 def beside_stops(draw):
@@ -30,8 +31,22 @@ def drawn(count, seed):
     return [beside_stops(draw) for _ in range(count)]
 
 
+OF_OWN = ("stop_stiffness_lower", "stop_stiffness_upper", "friction", "friction_static")
+
+
+def machine_of(mass):
+    """As that of a loose mass alone, with the stiffness of stops and the friction of the main mass."""
+    of_loose = loose_machine_of(mass)
+
+    def machine(scene):
+        return {key: mass * value if key in OF_OWN else value for key, value in of_loose(scene).items()}
+
+    return machine
+
+
 class BesideStops(OfRandomScenes):
     drawn = staticmethod(drawn)
+    machine_of = staticmethod(machine_of)
     test_a_mirrored_scene_has_mirrored_ones = None
 
 

@@ -120,14 +120,16 @@ def kinds(scenes, ways, key):
 
 class OfRandomScenes(OfScenes):
     drawn = staticmethod(drawn)
+    machine_of = staticmethod(machine_of)
+    of_machine = OF_MACHINE
 
     def test_the_units_of_length_time_and_mass_may_change(self):
         for n, scenes in enumerate(families(self.drawn(COUNT, SEED), values_of)):
             family = Family(self.program, scenes, of_section=values_of, observe=framed(scenes, n))
             self.check_scaling(family, scenes, OF_SCENE, 0, RESULTS_IN_HOUSING)
         for scenes in families(self.drawn(COUNT // 3, SEED + 1), values_of):
-            family = Family(self.program, scenes, "[machine]\nmass = 0.3\n", machine_of(0.3))
-            self.check_scaling(family, scenes, OF_MACHINE, 0.3, RESULTS_IN_HOUSING)
+            family = Family(self.program, scenes, "[machine]\nmass = 0.3\n", self.machine_of(0.3))
+            self.check_scaling(family, scenes, self.of_machine, 0.3, RESULTS_IN_HOUSING)
         self.assertEqual(self.told(), "")
         self.assertGreater(self.compared, 8 * COUNT)
         self.assertEqual(self.unknown, [])
@@ -198,10 +200,14 @@ def started(scene, runs, i, frame):
 
 
 def moved(scene, key, step):
-    """The scene with a key that has changed, its start on a wall that has moved over it."""
+    """The scene with a key that has changed, its start on a wall or a stop that has moved over it."""
     scene = {**scene, key: scene[key] + step}
-    low, high = scene["loose_lower"], scene.get("loose_upper", math.inf)
-    return {**scene, "loose_x0": min(max(scene["loose_x0"], low), high)}
+    for start, kind in (("loose_x0", "loose"), ("x0", "stop")):
+        low, high = scene.get(f"{kind}_lower", -math.inf), scene.get(f"{kind}_upper", math.inf)
+        soft = [f"stop_stiffness_{side}" in scene and kind == "stop" for side in ("lower", "upper")]
+        low, high = -math.inf if soft[0] else low, math.inf if soft[1] else high
+        scene[start] = min(max(scene[start], low), high)
+    return scene
 
 
 def slopes_of(function, values):

@@ -91,7 +91,7 @@ TEST(Multipliers, beyond_a_neimark_sacker_bifurcation_a_pair_is_outside_the_unit
   EXPECT_NEAR(state.v, quarter.v, 1e-13);
   EXPECT_NEAR(state.loose.speed, quarter.loose.speed, 1e-13);
   EXPECT_EQ(watch.strikes, 2);
-  const auto multipliers = multipliers_of(watch.tangent.mantissa());
+  const auto multipliers = motion::multipliers_of(watch.tangent.mantissa());
   EXPECT_EQ(watch.tangent.exponent(), 0);
   EXPECT_NEAR(std::abs(multipliers[0]), 1.056775, 1e-6);
   EXPECT_GT(std::abs(multipliers[0].imag()), 0.01);
