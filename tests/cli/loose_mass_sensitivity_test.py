@@ -122,6 +122,8 @@ class OfRandomScenes(OfScenes):
     drawn = staticmethod(drawn)
     machine_of = staticmethod(machine_of)
     of_machine = OF_MACHINE
+    rare = ()  # keys that may change nothing
+    part = 0.05  # of the difference of two steps that four orders leave at most
 
     def test_the_units_of_length_time_and_mass_may_change(self):
         for n, scenes in enumerate(families(self.drawn(COUNT, SEED), values_of)):
@@ -145,7 +147,7 @@ class OfRandomScenes(OfScenes):
             keys = [family.keys[(n + j) % len(family.keys)] for j in range(len(found))]
             steps = [1e-4 * (abs(scene[key]) or 0.05) for scene, key in zip(starts, keys)]
             sides = {side: [moved(s, key, side * d) for s, key, d in zip(starts, keys, steps)] for side in SIDES}
-            kept = [j for j in range(len(found)) if min(side[j]["loose_R"] for side in sides.values()) >= 0]
+            kept = [j for j in range(len(found)) if all(is_valid(side[j]) for side in sides.values())]
             if not kept:
                 continue
             runs = {
@@ -154,7 +156,7 @@ class OfRandomScenes(OfScenes):
             }
             for place, j in enumerate(kept):
                 i, key = found[j], keys[j]
-                part = 0.05
+                part = self.part
                 if scenes[i]["loose_R"] == 0:
                     # where an impact just presses, the second derivative jumps; others before it the word doesn't tell
                     part = 1.0
@@ -164,7 +166,7 @@ class OfRandomScenes(OfScenes):
                 sharp[key] = sharp.get(key, 0) + self.compare_differences(*compared, part=part)
         self.assertEqual(self.told(), "")
         self.assertGreater(sum(sharp.values()), 2 * COUNT)
-        self.assertEqual([key for key, count in sharp.items() if count == 0], [])
+        self.assertEqual([key for key, n in sharp.items() if n == 0 and key not in self.rare], [])
 
     def test_a_mirrored_scene_has_mirrored_ones(self):
         scenes = [scene for scene in self.drawn(COUNT, SEED + 3) if "loose_upper" in scene]
@@ -208,6 +210,10 @@ def moved(scene, key, step):
         low, high = -math.inf if soft[0] else low, math.inf if soft[1] else high
         scene[start] = min(max(scene[start], low), high)
     return scene
+
+
+def is_valid(scene):
+    return scene["loose_R"] >= 0 and scene.get("friction", 0.0) <= scene.get("friction_static", math.inf)
 
 
 def slopes_of(function, values):

@@ -149,7 +149,8 @@ class HousingWalk {
   /// of its event over its rate of change. Its value is 0.
   [[nodiscard]] Along lateness(std::size_t i, const Motion& end, const Motion& there) const {
     const Stretch& stretch = course_[i];
-    if (stretch.ends.empty()) {
+    // a press alone comes where the force of the wall only touches zero, and changes nothing
+    if (stretch.ends.empty() || stretch.ends.front().kind == Kind::press) {
       const bool lets_go = stretch.is_held && i + 1 < course_.size() && !course_[i + 1].is_held;
       const Along phase = lets_go ? phase_of_release(course_[i + 1]) : force_.lead;
       return with_slope_of(0, (phase - phase_after(state_, stretch.length)) / scene_.oscillator.frequency.value);
@@ -178,7 +179,6 @@ class HousingWalk {
   }
   /// To the end of a stretch.
   void pass(const Stretch& stretch, const Motion& end, const Along& late) {
-    closes_ = closes_ && !std::isnan(late.value);
     state_.phase = phase_after(state_, stretch.length) + scene_.oscillator.frequency * late;
     const bool is_on_stop = !stretch.ends.empty() && stretch.ends.front().kind == Kind::impact;
     if (!stretch.is_held)
