@@ -122,7 +122,7 @@ class OfRandomScenes(OfScenes):
     drawn = staticmethod(drawn)
     machine_of = staticmethod(machine_of)
     of_machine = OF_MACHINE
-    rare = ()  # keys that may change nothing
+    unconfirmed = 0  # keys that no difference confirms, at most
     part = 0.05  # of the difference of two steps that four orders leave at most
 
     def test_the_units_of_length_time_and_mass_may_change(self):
@@ -166,7 +166,7 @@ class OfRandomScenes(OfScenes):
                 sharp[key] = sharp.get(key, 0) + self.compare_differences(*compared, part=part)
         self.assertEqual(self.told(), "")
         self.assertGreater(sum(sharp.values()), 2 * COUNT)
-        self.assertEqual([key for key, n in sharp.items() if n == 0 and key not in self.rare], [])
+        self.assertLessEqual(len([key for key, count in sharp.items() if count == 0]), self.unconfirmed, sharp)
 
     def test_a_mirrored_scene_has_mirrored_ones(self):
         scenes = [scene for scene in self.drawn(COUNT, SEED + 3) if "loose_upper" in scene]
