@@ -86,11 +86,11 @@ std::string sobol(const Arguments& arguments, std::vector<double>& values) {
   return {};
 }
 
-constexpr std::array<std::string_view, 4> names{"linspace", "logspace", "arange", sobol_name};
-constexpr std::array<AxisFunction, 4> functions{AxisFunction{names[0], "linspace(a, b, n)", true, linspace},
-                                                AxisFunction{names[1], "logspace(a, b, n)", true, logspace},
-                                                AxisFunction{names[2], "arange(a, b, step)", false, arange},
-                                                AxisFunction{names[3], "sobol(a, b, n)", true, sobol}};
+constexpr std::array<std::string_view, 4> function_names{"linspace", "logspace", "arange", sobol_name};
+constexpr std::array<AxisFunction, 4> functions{AxisFunction{function_names[0], "linspace(a, b, n)", true, linspace},
+                                                AxisFunction{function_names[1], "logspace(a, b, n)", true, logspace},
+                                                AxisFunction{function_names[2], "arange(a, b, step)", false, arange},
+                                                AxisFunction{function_names[3], "sobol(a, b, n)", true, sobol}};
 
 }  // namespace
 
@@ -112,6 +112,6 @@ std::vector<double> sobol_values(double a, double b, std::size_t n, std::size_t 
   return values;
 }
 
-std::span<const std::string_view> axis_function_names() { return names; }
+std::span<const std::string_view> axis_function_names() { return function_names; }
 
 }  // namespace clatter::config

@@ -16,26 +16,27 @@ struct LookAlike {
   std::string_view kind, type;
 };
 
-constexpr std::string_view minus = "a typeset minus", sign = "a typeset sign", quote = "a typeset quote",
-                           blank = "a typeset blank", straight = "a straight quote, \"", plain = "a plain blank";
+constexpr std::string_view typeset_minus = "a typeset minus", typeset_sign = "a typeset sign",
+                           typeset_quote = "a typeset quote", typeset_blank = "a typeset blank",
+                           straight_quote = "a straight quote, \"", plain_blank = "a plain blank";
 
 constexpr std::array look_alikes{
-    LookAlike{0x2212, 0x2212, minus, "a hyphen, -"},
+    LookAlike{0x2212, 0x2212, typeset_minus, "a hyphen, -"},
     LookAlike{0x2010, 0x2015, "a typeset dash", "a hyphen, -"},
-    LookAlike{0xFE63, 0xFE63, minus, "a hyphen, -"},
-    LookAlike{0xFF0D, 0xFF0D, minus, "a hyphen, -"},
-    LookAlike{0x2260, 0x2260, sign, "!="},
-    LookAlike{0x2264, 0x2264, sign, "<="},
-    LookAlike{0x2265, 0x2265, sign, ">="},
-    LookAlike{0x2018, 0x201F, quote, straight},
-    LookAlike{0xAB, 0xAB, quote, straight},
-    LookAlike{0xBB, 0xBB, quote, straight},
-    LookAlike{0x2039, 0x203A, quote, straight},
-    LookAlike{0xA0, 0xA0, "a no-break space", plain},
-    LookAlike{0x2000, 0x200A, blank, plain},
-    LookAlike{0x202F, 0x202F, blank, plain},
-    LookAlike{0x205F, 0x205F, blank, plain},
-    LookAlike{0x3000, 0x3000, blank, plain},
+    LookAlike{0xFE63, 0xFE63, typeset_minus, "a hyphen, -"},
+    LookAlike{0xFF0D, 0xFF0D, typeset_minus, "a hyphen, -"},
+    LookAlike{0x2260, 0x2260, typeset_sign, "!="},
+    LookAlike{0x2264, 0x2264, typeset_sign, "<="},
+    LookAlike{0x2265, 0x2265, typeset_sign, ">="},
+    LookAlike{0x2018, 0x201F, typeset_quote, straight_quote},
+    LookAlike{0xAB, 0xAB, typeset_quote, straight_quote},
+    LookAlike{0xBB, 0xBB, typeset_quote, straight_quote},
+    LookAlike{0x2039, 0x203A, typeset_quote, straight_quote},
+    LookAlike{0xA0, 0xA0, "a no-break space", plain_blank},
+    LookAlike{0x2000, 0x200A, typeset_blank, plain_blank},
+    LookAlike{0x202F, 0x202F, typeset_blank, plain_blank},
+    LookAlike{0x205F, 0x205F, typeset_blank, plain_blank},
+    LookAlike{0x3000, 0x3000, typeset_blank, plain_blank},
     LookAlike{0x200B, 0x200D, "an invisible character", "none"},
     LookAlike{0xFEFF, 0xFEFF, "an invisible character", "none"},
 };
@@ -47,7 +48,7 @@ std::string name_of_character(std::string_view character) {
   std::array<char, 16> digits{};
   std::snprintf(digits.data(), digits.size(), "U+%04X", number);
   const auto is_blank = [&](const LookAlike& one) {
-    return number >= one.first && number <= one.last && (one.type == plain || one.type == "none");
+    return number >= one.first && number <= one.last && (one.type == plain_blank || one.type == "none");
   };
   if (storage::is_obeyed(character) || std::ranges::any_of(look_alikes, is_blank)) return digits.data();
   return '\'' + std::string(character) + "' (" + digits.data() + ')';

@@ -7,7 +7,7 @@
 namespace clatter::config {
 namespace {
 
-constexpr std::string_view values = R"text(Values, in TOML, in INI and after --set:
+constexpr std::string_view about_values = R"text(Values, in TOML, in INI and after --set:
   0.5   2*pi   -pi/2   a number; pi may stand as a number or factor (in TOML in
                        quotes: "2*pi")
   3 mm   2*pi rad/s    a number with its unit, for keys of [machine] and, beside
@@ -90,7 +90,7 @@ std::string set_command(std::string_view section, const Key& key, const std::str
 
 std::string permitted_and_default(const Key& key) { return permitted(key) + "; default: " + fallback(key); }
 
-std::string_view value_reference() { return values; }
+std::string_view value_reference() { return about_values; }
 
 std::string section_reference(std::string_view section) {
   std::string text = header(section);
@@ -106,7 +106,7 @@ std::string section_reference(std::string_view section) {
 std::string configuration_reference() {
   std::string text = section_reference("") + '\n';
   for (const std::string_view section : sections()) text += section_reference(section) + '\n';
-  return text + std::string(values);
+  return text + std::string(about_values);
 }
 
 std::string key_example(const Key& key) {

@@ -16,13 +16,6 @@ namespace {
 
 constexpr std::size_t max_quoted = 60;  // bytes
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
-
 /// The least number of insertions, deletions, replacements and swaps of neighbours between two words (Damerau 1964).
 std::size_t edit_distance(std::string_view from, std::string_view to) {
   std::vector<std::size_t> before_last, last(to.size() + 1), row(to.size() + 1);
@@ -70,6 +63,13 @@ bool has_thousands(std::string_view text) {
 }
 
 }  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
 
 std::string in_quotes(std::string_view text) { return '\'' + storage::excerpt(text, max_quoted) + '\''; }
 

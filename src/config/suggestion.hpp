@@ -11,6 +11,9 @@ namespace clatter::config {
 /// Quotes a text for a one-line message: in single quotes, made printable, cut after 60 bytes.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
+/// A text with its ASCII letters in lower case.
+[[nodiscard]] std::string lower_case(std::string_view text);
+
 /// The name that the written word abbreviates, else the nearest one by edit distance; empty if none is near.
 [[nodiscard]] std::string_view nearest(std::string_view written, std::span<const std::string_view> names);
 

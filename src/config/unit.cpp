@@ -13,7 +13,7 @@ namespace {
 
 constexpr Unit degree{.angle = 1, .degrees = 1};
 
-constexpr std::array symbols{
+constexpr std::array all_symbols{
     Symbol{"m", true, {.exponents = {1, 0, 0}}},
     Symbol{"s", true, {.exponents = {0, 1, 0}}},
     Symbol{"N", true, {.exponents = {1, -2, 1}}},
@@ -34,8 +34,8 @@ constexpr std::array prefixes{Prefix{"n", -9}, Prefix{"u", -6}, Prefix{"\u00B5",
                               Prefix{"M", 6},  Prefix{"G", 9}};
 
 const Symbol* symbol_named(std::string_view name) {
-  const auto found = std::ranges::find(symbols, name, &Symbol::name);
-  return found == symbols.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(all_symbols, name, &Symbol::name);
+  return found == all_symbols.end() ? nullptr : &*found;
 }
 
 void multiply(Unit& product, const Unit& unit, int power) {
@@ -102,13 +102,13 @@ double times_power(double value, double base, int power) {
 
 }  // namespace
 
-std::span<const Symbol> unit_symbols() { return symbols; }
+std::span<const Symbol> unit_symbols() { return all_symbols; }
 
 std::span<const Prefix> unit_prefixes() { return prefixes; }
 
 std::string unit_names() {
   std::string text;
-  for (const Symbol& symbol : symbols) (text += text.empty() ? "" : ", ") += symbol.name;
+  for (const Symbol& symbol : all_symbols) (text += text.empty() ? "" : ", ") += symbol.name;
   return text;
 }
 

@@ -17,32 +17,32 @@ namespace clatter::config {
 namespace {
 
 /// Another name of a unit, or the name of one that isn't read, in lower case and singular.
-struct OtherName {
+struct UnitName {
   std::string_view name;
   double size;  ///< in the unit
   std::string_view unit;
 };
 
-constexpr std::array other_names{
-    OtherName{"gram", 1, "g"},          OtherName{"gramm", 1, "g"},
-    OtherName{"kilo", 1, "kg"},         OtherName{"newton", 1, "N"},
-    OtherName{"meter", 1, "m"},         OtherName{"metre", 1, "m"},
-    OtherName{"micron", 1, "um"},       OtherName{"sec", 1, "s"},
-    OtherName{"second", 1, "s"},        OtherName{"minute", 1, "min"},
-    OtherName{"hertz", 1, "Hz"},        OtherName{"cps", 1, "Hz"},
-    OtherName{"radian", 1, "rad"},      OtherName{"degree", 1, "deg"},
-    OtherName{"percent", 1, "%"},       OtherName{"pct", 1, "%"},
-    OtherName{"upm", 1, "rpm"},         OtherName{"inch", 25.4, "mm"},
-    OtherName{"inches", 25.4, "mm"},    OtherName{"in", 25.4, "mm"},
-    OtherName{"foot", 304.8, "mm"},     OtherName{"feet", 304.8, "mm"},
-    OtherName{"ft", 304.8, "mm"},       OtherName{"mil", 0.0254, "mm"},
-    OtherName{"thou", 0.0254, "mm"},    OtherName{"lb", 0.45359237, "kg"},
-    OtherName{"lbm", 0.45359237, "kg"}, OtherName{"pound", 0.45359237, "kg"},
-    OtherName{"oz", 28.349523125, "g"}, OtherName{"lbf", 4.4482216152605, "N"},
-    OtherName{"kgf", 9.80665, "N"},     OtherName{"kp", 9.80665, "N"},
-    OtherName{"t", 1000, "kg"},         OtherName{"tonne", 1000, "kg"},
-    OtherName{"h", 60, "min"},          OtherName{"hour", 60, "min"},
-    OtherName{"rev", 360, "deg"},       OtherName{"turn", 360, "deg"},
+constexpr std::array other_unit_names{
+    UnitName{"gram", 1, "g"},          UnitName{"gramm", 1, "g"},
+    UnitName{"kilo", 1, "kg"},         UnitName{"newton", 1, "N"},
+    UnitName{"meter", 1, "m"},         UnitName{"metre", 1, "m"},
+    UnitName{"micron", 1, "um"},       UnitName{"sec", 1, "s"},
+    UnitName{"second", 1, "s"},        UnitName{"minute", 1, "min"},
+    UnitName{"hertz", 1, "Hz"},        UnitName{"cps", 1, "Hz"},
+    UnitName{"radian", 1, "rad"},      UnitName{"degree", 1, "deg"},
+    UnitName{"percent", 1, "%"},       UnitName{"pct", 1, "%"},
+    UnitName{"upm", 1, "rpm"},         UnitName{"inch", 25.4, "mm"},
+    UnitName{"inches", 25.4, "mm"},    UnitName{"in", 25.4, "mm"},
+    UnitName{"foot", 304.8, "mm"},     UnitName{"feet", 304.8, "mm"},
+    UnitName{"ft", 304.8, "mm"},       UnitName{"mil", 0.0254, "mm"},
+    UnitName{"thou", 0.0254, "mm"},    UnitName{"lb", 0.45359237, "kg"},
+    UnitName{"lbm", 0.45359237, "kg"}, UnitName{"pound", 0.45359237, "kg"},
+    UnitName{"oz", 28.349523125, "g"}, UnitName{"lbf", 4.4482216152605, "N"},
+    UnitName{"kgf", 9.80665, "N"},     UnitName{"kp", 9.80665, "N"},
+    UnitName{"t", 1000, "kg"},         UnitName{"tonne", 1000, "kg"},
+    UnitName{"h", 60, "min"},          UnitName{"hour", 60, "min"},
+    UnitName{"rev", 360, "deg"},       UnitName{"turn", 360, "deg"},
 };
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> prefixes_in_words{
@@ -62,12 +62,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 9> typeset{{
                                                                                 {"\u2212", "-"},
                                                                                 {"\u00BA", "\u00B0"}}};
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
-
 std::string without_typesetting(std::string text) {
   for (const auto& [typed, plain] : typeset)
     for (std::size_t at = text.find(typed); at != std::string::npos; at = text.find(typed, at))
@@ -83,8 +77,8 @@ struct Meaning {
 
 std::optional<Meaning> other_name(std::string_view word) {
   for (const std::string_view name : {word, word.substr(0, word.size() - (word.size() > 2 && word.ends_with('s')))}) {
-    const auto found = std::ranges::find(other_names, name, &OtherName::name);
-    if (found != other_names.end()) return Meaning{std::string(found->unit), found->size};
+    const auto found = std::ranges::find(other_unit_names, name, &UnitName::name);
+    if (found != other_unit_names.end()) return Meaning{std::string(found->unit), found->size};
   }
   for (const auto& [in_words, prefix] : prefixes_in_words)
     if (word.starts_with(in_words) && word.size() > in_words.size())
@@ -122,7 +116,7 @@ std::optional<Meaning> meaning_of(std::string_view word) {
 }
 
 /// Reads products, quotients and brackets of words, as far as they mean units.
-class Reading {
+class UnitReader {
  public:
   /// Whether all of a text was read; its factors divide if `sign` is -1.
   bool read(std::string_view text, int sign) {
@@ -204,7 +198,7 @@ std::string unit_hint(std::string_view text, Quantity quantity) {
   if (text.size() > longest) return {};
   if (std::ranges::find(turns_per_minute, lower_case(text)) != turns_per_minute.end())
     return is_of("rpm", quantity) ? "; did you mean 'rpm'?" : "";
-  Reading reading;
+  UnitReader reading;
   if (!reading.read(without_typesetting(std::string(text)), 1) || !is_of(reading.unit(), quantity)) return {};
   if (reading.size() == 1) return "; did you mean '" + reading.unit() + "'?";
   return "; 1 " + std::string(text) + " is " + number_text(reading.size()) + ' ' + reading.unit();

@@ -43,12 +43,6 @@ const std::vector<OtherName> other_names{
     {{"y0", "base_excitation"}, "the amplitude of a shaken base", "base_amplitude", "base_amplitude"},
 };
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return lower;
-}
-
 /// Our key for a name that the field has for a quantity, and where it belongs unless it was written there.
 std::string known_otherwise(const ParsedEntry& entry, std::string_view scene_section) {
   for (const auto& [names, quantity, in_scene, in_machine] : other_names) {

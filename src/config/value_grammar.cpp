@@ -19,7 +19,7 @@
 namespace clatter::config {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view blanks_and_ends = " \t\r\n";
 
 /// Reads a value from its first character to its last by recursive descent.
 class Parser {
@@ -37,7 +37,7 @@ class Parser {
 
   [[nodiscard]] LeadingNumber leading_number() {
     const double value = product();
-    return {value, rest().substr(0, rest().find_last_not_of(blanks) + 1)};
+    return {value, rest().substr(0, rest().find_last_not_of(blanks_and_ends) + 1)};
   }
 
   [[nodiscard]] AxisValues axis() {
@@ -59,7 +59,7 @@ class Parser {
     if (const auto found = find_look_alike(source_.text)) fail_at(found->at, found->hint);
   }
 
-  void skip_blanks() { at_ = std::min(source_.text.find_first_not_of(blanks, at_), source_.text.size()); }
+  void skip_blanks() { at_ = std::min(source_.text.find_first_not_of(blanks_and_ends, at_), source_.text.size()); }
 
   bool accept(char character) {
     if (!peek(character)) return false;

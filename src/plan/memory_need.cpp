@@ -19,7 +19,7 @@ namespace {
 constexpr double kibi = 1024;
 constexpr double program = 11.5 * kibi * kibi;  ///< the program and its libraries, with a sweep of a few points
 constexpr double thread = 64 * kibi;            ///< stack and heap of a thread
-constexpr double value = sizeof(double);
+constexpr double value_bytes = sizeof(double);
 
 constexpr double text_in_file = 64;  ///< of a short text: a reference, a header, letters
 constexpr double pointer = sizeof(void*);
@@ -68,7 +68,7 @@ struct Parts {
 
 void add_coordinates(const sweep::Sweep& sweep, bool is_shard, Parts& parts) {
   for (const sweep::Dimension& dimension : sweep.dimensions) {
-    parts.axes += value * static_cast<double>(length(dimension)) * static_cast<double>(dimension.size());
+    parts.axes += value_bytes * static_cast<double>(length(dimension)) * static_cast<double>(dimension.size());
   }
   parts.coordinates = parts.axes;
   if (sweep.direction == sweep::Direction::both) parts.coordinates += 2 * sizeof(std::int8_t);
@@ -86,11 +86,11 @@ void add_coordinates(const sweep::Sweep& sweep, bool is_shard, Parts& parts) {
 
 /// The numbers of the points, and the motions of each ensemble, of which most have few.
 void add_numbering(const sweep::Sweep& sweep, Parts& parts) {
-  constexpr double few = 4, of_share = 3 * value;
+  constexpr double few = 4, of_share = 3 * value_bytes;
   const double ensembles = std::min(parts.points, static_cast<double>(sweep::ensembles_of(sweep)));
   const double motions = std::min(parts.points, few * ensembles);
   parts.motions = attractors::bytes_of_motion * motions + sizeof(std::uint32_t) * ensembles;
-  const double shares = (value + std::min(few, parts.points / ensembles) * of_share) * ensembles;
+  const double shares = (value_bytes + std::min(few, parts.points / ensembles) * of_share) * ensembles;
   parts.numbers = sizeof(std::int32_t) * parts.points + shares;
   parts.results += parts.numbers;
 }
@@ -101,10 +101,10 @@ Parts parts_of(const sweep::Sweep& sweep, const std::optional<results::Shard>& s
   add_coordinates(sweep, shard.has_value(), parts);
   const observables::Observe& observe = sweep.problem.observe;
   const double always =
-      (sizeof(std::uint8_t) + sizeof(std::int64_t) + value) * parts.points;  // status, impacts, periods
+      (sizeof(std::uint8_t) + sizeof(std::int64_t) + value_bytes) * parts.points;  // status, impacts, periods
   parts.results = parts.packed = parts.columns = always;
   for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.problem)) {
-    const double bytes = static_cast<double>(output.width()) * value * parts.points;
+    const double bytes = static_cast<double>(output.width()) * value_bytes * parts.points;
     const double in_file = output.text ? text_in_file * parts.points : bytes;
     parts.packed += output.text ? kept_text * parts.points : bytes;
     if (!output.intermediate || shard) parts.results += in_file;
@@ -115,7 +115,8 @@ Parts parts_of(const sweep::Sweep& sweep, const std::optional<results::Shard>& s
   if (observe.attractor) add_numbering(sweep, parts);
   if (!observe.impact_log) return parts;
   parts.impacts = impacts, parts.counts = sizeof(std::int64_t) * parts.points;
-  parts.logged = static_cast<double>(observables::log_columns(is_shaken(sweep)).size()) * value + sizeof(std::int8_t);
+  parts.logged =
+      static_cast<double>(observables::log_columns(is_shaken(sweep)).size()) * value_bytes + sizeof(std::int8_t);
   parts.columns += pointer * parts.points;
   parts.kept += logged_head * parts.points + logged_impact * impacts;
   return parts;
@@ -184,7 +185,7 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::S
   const Parts parts = parts_of(sweep, shard, impacts);
   const double bits = 2 * parts.chains / 8;  // of the chains' states
   const double working =
-      std::max(value * observables::All::values_held(sweep.problem.observe, threads), saving_bytes(sweep, parts));
+      std::max(value_bytes * observables::All::values_held(sweep.problem.observe, threads), saving_bytes(sweep, parts));
   const double numbering = parts.motions + std::max(parts.motions, parts.numbers);
   const double writing = parts.numbers + parts.writing(1) + std::min(parts.output(), of_values);
   return {
@@ -200,15 +201,15 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::S
 
 double merge_bytes(const sweep::Sweep& sweep, std::size_t shards, double impacts, int level) {
   const Parts parts = parts_of(sweep, std::nullopt, impacts);
-  double of_point = value;  // of the variable that has most
+  double of_point = value_bytes;  // of the variable that has most
   for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.problem))
-    of_point = std::max(of_point, output.text ? text_in_file : static_cast<double>(output.width()) * value);
+    of_point = std::max(of_point, output.text ? text_in_file : static_cast<double>(output.width()) * value_bytes);
   constexpr double of_open_file = 0.64 * kibi * kibi;
   const double open = of_open_file * static_cast<double>(std::min(shards, results::most_open_shards));
   const double most = std::max<double>(sweep::joined_at_once, of_point);
   constexpr double blocks = 3.3;  // one is read, one gathered, one being written, and gaps lie between
   const double block = blocks * std::min(most, of_point * parts.points),
-               log = (1 + 1 / static_cast<double>(shards)) * std::min(most, value * impacts);
+               log = (1 + 1 / static_cast<double>(shards)) * std::min(most, value_bytes * impacts);
   const double numbering = parts.numbered + parts.motions + std::max(parts.motions, parts.numbers);
   return before_bytes(parts, 0) + open + std::max(numbering, parts.numbers + block + log + parts.writing(level));
 }

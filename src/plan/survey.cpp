@@ -18,7 +18,7 @@
 namespace clatter::plan {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// Whether motion without stops reaches its final form: the steady response, free vibration, or standstill in time.
 bool comes_to_its_end(const point::Problem& scene, double time) {
@@ -52,7 +52,7 @@ Bounds periods_of(const point::Problem& scene, const Effects& effects) {
 
 /// The largest displacement over the gap of a stop that isn't met: 1 if it would touch; negative if there is no stop.
 double closeness(const Requirements& needs, double gap) {
-  return gap < infinity ? (needs.effects.stops() ? needs.reach : needs.free_reach) / gap : -1;
+  return gap < unbounded ? (needs.effects.stops() ? needs.reach : needs.free_reach) / gap : -1;
 }
 
 /// The points of a run that are examined. Those that begin a chain are sampled apart from the others: their start is

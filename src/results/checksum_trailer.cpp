@@ -18,9 +18,10 @@ namespace clatter::results {
 namespace {
 
 /// Reads a whole file, piece by piece.
-class Pieces {
+class FilePieces {
  public:
-  explicit Pieces(const std::string& path) : path_(path), file_(storage::open_input(path, shards_of_clatter).file) {}
+  explicit FilePieces(const std::string& path)
+      : path_(path), file_(storage::open_input(path, shards_of_clatter).file) {}
 
   /// The next bytes, as many as there are; none at the end.
   std::span<const std::byte> next() {
@@ -59,7 +60,7 @@ void add_checksum(storage::FileWriter& file, std::uint64_t length) {
 
 void require_checksum(const std::string& path) {
   const std::size_t trailer_length = checksum_trailer_of(0, 0).size();
-  Pieces pieces(path);
+  FilePieces pieces(path);
   std::uint64_t length = 0;
   std::uint32_t crc = 0;
   std::vector<std::byte> held;  // may end with the trailer

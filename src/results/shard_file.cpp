@@ -88,7 +88,7 @@ ShardHeader header_of(const Handle& file, const std::string& path) {
 
 /// All fields of a header in one order, to pack and to unpack.
 template <typename Pass, typename Header>
-void pass_all(Pass& pass, Header& header) {
+void pass_header(Pass& pass, Header& header) {
   pass(header.shard.number), pass(header.shard.of), pass(header.impacts), pass(header.values);
   for (auto* const text : {&header.schema, &header.version, &header.git_commit, &header.compiler, &header.config,
                            &header.config_sha256, &header.instruction_set, &header.rounding})
@@ -107,7 +107,7 @@ void require_possible(const ShardHeader& header, std::uint64_t stored_bytes, con
 
 std::string packed(const ShardHeader& header) {
   storage::Packer packer;
-  pass_all(packer, header);
+  pass_header(packer, header);
   return std::move(packer).bytes();
 }
 
@@ -130,7 +130,7 @@ ShardHeader read_shard_header(const std::string& path, const MostValues& most_va
   ShardHeader header{};
   header.path = path;
   storage::Unpacker unpacker(bytes);
-  pass_all(unpacker, header);
+  pass_header(unpacker, header);
   if (!unpacker.complete() || header.shard.number >= header.shard.of || header.shard.of > Shard::most)
     refuse(path, "it makes the HDF5 library corrupt its memory");
   return header;

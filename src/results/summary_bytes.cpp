@@ -9,7 +9,7 @@ namespace {
 
 /// All fields of a summary in one order, to pack and to unpack.
 template <typename Pass, typename Summary>
-void pass_all(Pass& pass, Summary& summary) {
+void pass_summary(Pass& pass, Summary& summary) {
   const auto pair = [](auto& each, auto& item) { each(item.first), each(item.second); };
   const auto dimension = [](auto& each, auto& item) { each(item.name), each(item.length); };
   const auto entry = [&](auto& each, auto& item) {
@@ -23,14 +23,14 @@ void pass_all(Pass& pass, Summary& summary) {
 
 std::string bytes_of(const FileSummary& summary) {
   storage::Packer packer;
-  pass_all(packer, summary);
+  pass_summary(packer, summary);
   return std::move(packer).bytes();
 }
 
 std::optional<FileSummary> summary_from(std::string_view bytes) {
   storage::Unpacker unpacker(bytes);
   FileSummary summary;
-  pass_all(unpacker, summary);
+  pass_summary(unpacker, summary);
   return unpacker.complete() ? std::optional(std::move(summary)) : std::nullopt;
 }
 

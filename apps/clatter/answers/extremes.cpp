@@ -28,10 +28,6 @@ bool is_in(const std::vector<results::NamedLength>& dimensions, const results::N
   return std::ranges::any_of(dimensions, [&](const results::NamedLength& other) { return are_same(one, other); });
 }
 
-std::size_t size_of(const results::Variable& variable) {
-  return std::visit([](const auto& values) { return values.size(); }, variable.values);
-}
-
 /// The indexes along some dimensions of one of their combinations, row-major.
 std::vector<std::size_t> indexes_of(std::size_t index, const std::vector<results::NamedLength>& dimensions) {
   std::vector<std::size_t> indexes(dimensions.size());

@@ -23,10 +23,6 @@ namespace {
 
 constexpr const char* met_word = "yes";
 
-std::size_t size_of(const results::Variable& variable) {
-  return std::visit([](const auto& values) { return values.size(); }, variable.values);
-}
-
 /// A number that is whole, or over this many periods, as text: "2", "3/2"; empty: it is neither, or NaN.
 std::string count_text(double number, double periods) {
   if (std::isnan(number)) return {};
@@ -38,7 +34,7 @@ std::string count_text(double number, double periods) {
 }
 
 /// The word for one value of a result: a text, the meaning of a flag, or a count; empty: NaN, or no count.
-std::string word_at(const results::Variable& variable, std::size_t index, double periods = 1) {
+std::string told_word(const results::Variable& variable, std::size_t index, double periods = 1) {
   if (const auto* const numbers = std::get_if<std::vector<double>>(&variable.values))
     return count_text((*numbers)[index], periods);
   std::string text;
@@ -178,13 +174,13 @@ std::vector<std::string> Ranges::words_of_result(const results::Dataset& dataset
     const std::vector<double> numbers = numbers_in(variable_of(dataset, "attractor").values);
     for (std::size_t point = 0; point < words.size(); ++point)
       if (numbers[point] >= 0 && numbers[point] < static_cast<double>(size_of(variable)))
-        words[point] = word_at(variable, static_cast<std::size_t>(numbers[point]));
+        words[point] = told_word(variable, static_cast<std::size_t>(numbers[point]));
     return words;
   }
   const std::size_t width = width_of_result(), part = part_of_result(dataset);
   const std::vector<double> periods = periods_of(dataset, words.size());
   for (std::size_t point = 0; point < words.size(); ++point)
-    words[point] = word_at(variable, point * width + part, periods[point]);
+    words[point] = told_word(variable, point * width + part, periods[point]);
   return words;
 }
 
@@ -224,7 +220,7 @@ std::vector<std::string> Ranges::words(const results::Dataset& dataset) const {
   if (result_ != nullptr) words = words_of_result(dataset);
   const bool has_status = find_variable(summary_, "status") != nullptr;
   for (std::size_t point = 0; point < words.size(); ++point) {
-    if (words[point].empty() && has_status) words[point] = '(' + word_at(variable_of(dataset, "status"), point) + ')';
+    if (words[point].empty() && has_status) words[point] = '(' + told_word(variable_of(dataset, "status"), point) + ')';
     if (!chosen[point]) words[point].clear();
   }
   return words;

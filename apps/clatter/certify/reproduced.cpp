@@ -60,9 +60,9 @@ bool are_near(double one, double other, double most, bool is_angle) {
 }
 
 /// Compares one variable of a run with that of a file.
-class Comparison {
+class ComparisonOfPoints {
  public:
-  Comparison(const PointRows& run, std::size_t point, const PointRows& file, std::size_t point_of_file)
+  ComparisonOfPoints(const PointRows& run, std::size_t point, const PointRows& file, std::size_t point_of_file)
       : run_(run), file_(file), point_(point), point_of_file_(point_of_file) {}
 
   [[nodiscard]] bool are_same(const Variable& ran, const Variable& stored, double tolerance) const {
@@ -147,7 +147,7 @@ std::optional<std::string> difference(const PointRows& run, std::size_t point, c
                                       std::size_t point_of_file,
                                       const std::optional<certificates::Certificate>& certificate,
                                       std::string_view only) {
-  const Comparison comparison(run, point, file, point_of_file);
+  const ComparisonOfPoints comparison(run, point, file, point_of_file);
   const Tolerances tolerances = certificate ? tolerances_of(*certificate) : Tolerances{};
   for (const Variable& ran : run.dataset().variables) {
     const bool is_asked =

@@ -95,7 +95,7 @@ int run_accuracy(const Arguments& arguments) {
   return any_failed(points) ? points_failed : done;
 }
 
-constexpr std::string_view examples =
+constexpr std::string_view accuracy_examples =
     "  clatter accuracy configs/accuracy_smooth.toml\n"
     "  clatter accuracy mine.toml --json --set scene.R=0.5 > mine.jsonl\n";
 
@@ -105,7 +105,7 @@ Command accuracy_command() {
   return {.name = "accuracy",
           .usage = "accuracy CONFIG [OPTION]...",
           .summary = "measure what accuracy costs in time: methods and settings against a 50-digit reference",
-          .examples = examples,
+          .examples = accuracy_examples,
           .operands = {"CONFIG"},
           .required_operands = 1,
           .options = {{"output", 'o', "FILE.h5", "output file; default: NAME.accuracy.h5 in this directory"},

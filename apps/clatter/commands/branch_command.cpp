@@ -102,7 +102,7 @@ int run_branch(const Arguments& arguments) {
   return code_of(found);
 }
 
-constexpr std::string_view examples =
+constexpr std::string_view branch_examples =
     "  clatter branch configs/branch.toml\n"
     "  clatter branch mine.toml --json --set branch.range='0.8, 1.5' | jq .nu\n"
     "  clatter branch mine.toml --from map.h5 --where nu=1.2 --where R=0.7\n"
@@ -116,7 +116,7 @@ Command branch_command() {
       .usage = "branch [CONFIG] [--from FILE.h5] [OPTION]...",
       .summary =
           "follow periodic motion, stable and unstable, along a parameter; list its folds, flips, grazes and maxima",
-      .examples = examples,
+      .examples = branch_examples,
       .operands = {"CONFIG"},
       .required_operands = 0,
       .options =

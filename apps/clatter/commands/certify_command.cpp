@@ -84,7 +84,7 @@ int certify(const Arguments& arguments) try {
   throw UsageError(error.what());
 }
 
-constexpr std::string_view examples =
+constexpr std::string_view certify_examples =
     "  clatter certify fig23.h5 -o fig23.jsonl\n"
     "  clatter certify curve.branch.h5 -o branch.jsonl\n"
     "  clatter certify map.h5 --sample 100 --where nu=1.0 | clatter-verify -\n";
@@ -96,7 +96,7 @@ Command certify_command() {
       .name = "certify",
       .usage = "certify FILE.h5 [OPTION]...",
       .summary = "write the results of an output as certificates, for clatter-verify to prove",
-      .examples = examples,
+      .examples = certify_examples,
       .operands = {"FILE.h5"},
       .required_operands = 1,
       .options = {{"sample", 0, "N", "certify only N points, and as many special points, spread evenly; default: all"},

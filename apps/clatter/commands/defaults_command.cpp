@@ -17,7 +17,7 @@ int print_defaults(const Arguments& arguments) {
   return done;
 }
 
-constexpr std::string_view examples =
+constexpr std::string_view defaults_examples =
     "  clatter defaults > new.toml\n"
     "  clatter defaults --ini > new.ini\n"
     "  clatter defaults --schema > clatter.schema.json\n";
@@ -28,7 +28,7 @@ Command defaults_command() {
   return {.name = "defaults",
           .usage = "defaults [--ini|--schema]",
           .summary = "print a complete commented configuration that runs",
-          .examples = examples,
+          .examples = defaults_examples,
           .operands = {},
           .required_operands = 0,
           .options = {{"ini", 0, "", "as INI instead of TOML"},

@@ -68,14 +68,14 @@ int export_table(const Arguments& arguments) try {
   throw UsageError(error.what());
 }
 
-constexpr std::string_view notes =
+constexpr std::string_view export_notes =
     "Numbers are those of the file: work, losses and impulse in the observed time, which `clatter info` and pictures "
     "give per forcing period. tau of samples and of impacts is the time since the observed time began, in s of a "
     "[machine], else in units of one over the natural frequency, so that a forcing period is 2 pi/nu. A result has one "
     "name for --only and --where in all rows, e.g. word; the names in the file, impact_word or special_word, are "
     "understood, too.";
 
-constexpr std::string_view examples =
+constexpr std::string_view export_examples =
     "  clatter export fig22.h5 > fig22.csv\n"
     "  clatter export map.h5 --only x_max,v_before[-1] --where nu=1.0 -o part.csv\n"
     "  clatter export drive.h5 --where gap='1.5 mm'\n"
@@ -90,8 +90,8 @@ Command export_command() {
   return {.name = "export",
           .usage = "export FILE.h5 [OPTION]...",
           .summary = "print an output file as CSV for gnuplot, R and spreadsheets",
-          .examples = examples,
-          .notes = notes,
+          .examples = export_examples,
+          .notes = export_notes,
           .operands = {"FILE.h5"},
           .required_operands = 1,
           .options = {{"only", 0, "NAME,...", "columns of these results, or components like v_before[-1]; repeatable",

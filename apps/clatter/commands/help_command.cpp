@@ -81,7 +81,7 @@ int print_help(const Arguments& arguments) {
   return done;
 }
 
-constexpr std::string_view examples =
+constexpr std::string_view help_examples =
     "  clatter help run\n"
     "  clatter help configuration\n"
     "  clatter help R                also scene.R, sweep.R, [scene], linspace\n"
@@ -142,7 +142,7 @@ Command help_command() {
       .usage = "help [COMMAND|KEY|RESULT]",
       .summary =
           "explain a command, a key of the configuration with an example, a result, or all keys (help configuration)",
-      .examples = examples,
+      .examples = help_examples,
       .operands = {"COMMAND|KEY|RESULT"},
       .required_operands = 0,
       .options = {{"manual", 0, "DIR",

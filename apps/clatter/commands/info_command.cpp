@@ -181,11 +181,11 @@ int print_info(const Arguments& arguments) try {
   throw UsageError(error.what());
 }
 
-constexpr std::string_view notes =
+constexpr std::string_view info_notes =
     "Work, losses and impulse are those of one forcing period here, as in pictures, so that points compare; the file "
     "and `clatter export` have those of the observed time.";
 
-constexpr std::string_view examples =
+constexpr std::string_view info_examples =
     "  clatter info fig22.h5\n"
     "  clatter info fig22.h5 --max impact_speed\n"
     "  clatter info fig22.h5 --max impact_speed --periodic\n"
@@ -201,8 +201,8 @@ Command info_command() {
   return {.name = "info",
           .usage = "info FILE.h5 [OPTION]...",
           .summary = "print the contents of an output file and how it was made",
-          .examples = examples,
-          .notes = notes,
+          .examples = info_examples,
+          .notes = info_notes,
           .operands = {"FILE.h5"},
           .required_operands = 1,
           .options = {{"max", 0, "NAME",

@@ -104,7 +104,7 @@ int write_model(const Arguments& arguments) {
   return done;
 }
 
-constexpr std::string_view examples =
+constexpr std::string_view init_examples =
     "  clatter init\n"
     "  clatter init drill\n"
     "  clatter init soft_bumper -o mine.toml\n";
@@ -115,7 +115,7 @@ Command init_command() {
   return {.name = "init",
           .usage = "init [MODEL] [-o FILE.toml]",
           .summary = "write the configuration of a model to begin with, or list the models",
-          .examples = examples,
+          .examples = init_examples,
           .operands = {"MODEL"},
           .required_operands = 0,
           .options = {{"output", 'o', "FILE.toml",

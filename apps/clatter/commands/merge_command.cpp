@@ -55,7 +55,7 @@ int merge_shards(const Arguments& arguments) {
   return statuses.failed() > 0 ? points_failed : done;
 }
 
-constexpr std::string_view examples = "  clatter merge -o map_nu_xs.h5 map_nu_xs.*-of-4.h5\n";
+constexpr std::string_view merge_examples = "  clatter merge -o map_nu_xs.h5 map_nu_xs.*-of-4.h5\n";
 
 }  // namespace
 
@@ -63,7 +63,7 @@ Command merge_command() {
   return {.name = "merge",
           .usage = "merge -o FILE.h5 SHARD.h5...",
           .summary = "join the files of all shards of a sweep into the file of a single run",
-          .examples = examples,
+          .examples = merge_examples,
           .operands = {"SHARD.h5"},
           .repeats_last = true,
           .required_operands = 1,

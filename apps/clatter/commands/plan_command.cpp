@@ -32,7 +32,7 @@ int print_plan(const Arguments& arguments) {
   return done;
 }
 
-constexpr std::string_view examples =
+constexpr std::string_view plan_examples =
     "  clatter plan configs/fig22.toml\n"
     "  clatter plan configs/fig22.toml --json --set scene.xs=-6\n"
     "  clatter plan configs/map_nu_xs.toml --shard 0/4     a quarter of its points\n";
@@ -43,7 +43,7 @@ Command plan_command() {
   return {.name = "plan",
           .usage = "plan CONFIG [OPTION]...",
           .summary = "show the work of a run before it starts: effects and why, time, memory, output",
-          .examples = examples,
+          .examples = plan_examples,
           .operands = {"CONFIG"},
           .required_operands = 1,
           .options = {{"json", 0, "", "print JSON, including warnings"},

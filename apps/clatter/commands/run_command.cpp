@@ -63,7 +63,7 @@ int run_config(const Arguments& arguments) {
   return RunSession(std::move(config), std::move(request)).run();
 }
 
-constexpr std::string_view examples =
+constexpr std::string_view run_examples =
     "  clatter run configs/fig22.toml\n"
     "  clatter run configs/fig22.toml -o coarse.h5 \\\n"
     "    --set sweep.nu='linspace(0.5, 1.5, 51)' --set scene.R=0.5\n"
@@ -78,7 +78,7 @@ Command run_command() {
       .name = "run",
       .usage = "run CONFIG [OPTION]...",
       .summary = "run a configuration and write its results as HDF5",
-      .examples = examples,
+      .examples = run_examples,
       .operands = {"CONFIG"},
       .required_operands = 1,
       .options = {output_option,

@@ -18,14 +18,14 @@ std::string bash_values(const Setting& setting) {
     for (const char c : value) (word += c == ' ' ? "\\" : "") += c;
     words.push_back(word.size() > value.size() ? '"' + word + '"' : word);
   }
-  return quoted(joined(words, " "));
+  return shell_quoted(joined(words, " "));
 }
 
 /// The call that offers it.
 std::string bash_call(const Offer& offer) {
   switch (offer.kind) {
     case Offer::Kind::words:
-      return "_clatter_words " + quoted(joined(offer.words, " "));
+      return "_clatter_words " + shell_quoted(joined(offer.words, " "));
     case Offer::Kind::files:
       return "_clatter_files " + joined(offer.words, " ");
     case Offer::Kind::folders:
@@ -45,7 +45,7 @@ std::string bash_case(const Command& command) {
       text += "        " + joined(written(option), " | ") + ") " +
               bash_call(offer_for(option.argument, option.choices)) + "; return ;;\n";
   return text + "      esac\n      if [[ $current == -* ]]; then _clatter_words " +
-         quoted(joined(written(command.options), " ")) + "; else " + bash_call(operand_of(command)) + "; fi ;;\n";
+         shell_quoted(joined(written(command.options), " ")) + "; else " + bash_call(operand_of(command)) + "; fi ;;\n";
 }
 
 constexpr std::string_view bash_functions = R"bash(# bash completion of clatter; `clatter help --manual DIR` writes it.
@@ -99,13 +99,14 @@ std::string bash_completion() {
   for (const Setting& setting : settings()) {
     (names += names.empty() ? "" : " ") += setting.name;
     values += "    " + setting.name + ") ";
-    values += setting.values.empty() ? "permitted=" + quoted(setting.permitted) : "values=" + bash_values(setting);
+    values +=
+        setting.values.empty() ? "permitted=" + shell_quoted(setting.permitted) : "values=" + bash_values(setting);
     values += " ;;\n";
   }
-  std::string text = std::string(bash_functions) + "_clatter_keys=" + quoted(names) +
+  std::string text = std::string(bash_functions) + "_clatter_keys=" + shell_quoted(names) +
                      "\n\n_clatter_values() {\n  case $1 in\n" + values + "  esac\n}\n\n" + std::string(bash_begin) +
                      "    _clatter_words " +
-                     quoted(joined(command_names(), " ") + ' ' + joined(written(program_options()), " ")) +
+                     shell_quoted(joined(command_names(), " ") + ' ' + joined(written(program_options()), " ")) +
                      "\n    return\n  fi\n  case ${words[1]} in\n";
   for (const Command& command : commands()) text += bash_case(command);
   return text + "  esac\n}\ncomplete -F _clatter clatter\n";

@@ -60,7 +60,7 @@ std::string replaced(std::string text, std::string_view old, std::string_view wi
   return text;
 }
 
-std::string quoted(const std::string& text) { return '\'' + replaced(text, "'", R"('\'')") + '\''; }
+std::string shell_quoted(const std::string& text) { return '\'' + replaced(text, "'", R"('\'')") + '\''; }
 
 std::vector<std::string> written(const Option& option) {
   std::vector<std::string> forms;

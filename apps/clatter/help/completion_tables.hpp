@@ -39,7 +39,7 @@ struct Setting {
 [[nodiscard]] std::string replaced(std::string text, std::string_view old, std::string_view with);
 
 /// A word for bash and zsh.
-[[nodiscard]] std::string quoted(const std::string& text);
+[[nodiscard]] std::string shell_quoted(const std::string& text);
 
 template <class Words>
 [[nodiscard]] std::string joined(const Words& words, std::string_view between) {

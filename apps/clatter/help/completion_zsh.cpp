@@ -36,7 +36,8 @@ std::string zsh_option(const Option& option) {
                                                                zsh_action(offer_for(option.argument, option.choices)));
   std::string text;
   for (const std::string& form : forms)
-    text += " \\\n        " + quoted((option.repeatable ? "*" : '(' + joined(forms, " ") + ')') + form + explained);
+    text +=
+        " \\\n        " + shell_quoted((option.repeatable ? "*" : '(' + joined(forms, " ") + ')') + form + explained);
   return text;
 }
 
@@ -44,14 +45,14 @@ std::string zsh_case(const Command& command) {
   std::string text = "    " + std::string(command.name) + ")\n      _arguments -S";
   for (const Option& option : command.options) text += zsh_option(option);
   if (!command.operands.empty())
-    text += " \\\n        " + quoted((command.repeats_last ? "*:" : "1:") + plain(command.operands.back()) + ':' +
-                                     zsh_action(operand_of(command)));
+    text += " \\\n        " + shell_quoted((command.repeats_last ? "*:" : "1:") + plain(command.operands.back()) + ':' +
+                                           zsh_action(operand_of(command)));
   return text + " ;;\n";
 }
 
 std::string zsh_values(const Setting& setting) {
   std::string words;
-  for (const std::string_view value : setting.values) words += ' ' + quoted(std::string(value));
+  for (const std::string_view value : setting.values) words += ' ' + shell_quoted(std::string(value));
   return words;
 }
 
@@ -60,9 +61,10 @@ std::string zsh_values(const Setting& setting) {
 std::string zsh_completion() {
   std::string keys, values;
   for (const Setting& setting : settings()) {
-    keys += "    " + quoted(setting.name + ':' + setting.help + "; " + setting.permitted) + '\n';
+    keys += "    " + shell_quoted(setting.name + ':' + setting.help + "; " + setting.permitted) + '\n';
     values += "      " + setting.name + ") ";
-    values += setting.values.empty() ? "compadd -x " + quoted(setting.permitted) : "compadd" + zsh_values(setting);
+    values +=
+        setting.values.empty() ? "compadd -x " + shell_quoted(setting.permitted) : "compadd" + zsh_values(setting);
     values += " ;;\n";
   }
   std::string text =
@@ -72,12 +74,12 @@ std::string zsh_completion() {
       "    esac\n  else\n    _describe -t keys 'key of the configuration' keys -S =\n  fi\n}\n\n"
       "_clatter_commands() {\n  local -a commands=(\n";
   for (const Command& command : commands())
-    text += "    " + quoted(std::string(command.name) + ':' + std::string(command.summary)) + '\n';
+    text += "    " + shell_quoted(std::string(command.name) + ':' + std::string(command.summary)) + '\n';
   text +=
       "  )\n  _describe -t commands command commands\n}\n\n_clatter() {\n  local curcontext=$curcontext state line\n"
       "  _arguments -C";
   for (const Option& option : program_options())
-    text += " \\\n    " + quoted("(- *)--" + std::string(option.name) + '[' + plain(option.help) + ']');
+    text += " \\\n    " + shell_quoted("(- *)--" + std::string(option.name) + '[' + plain(option.help) + ']');
   text +=
       " \\\n    '1: :_clatter_commands' \\\n    '*:: :->arguments'\n"
       "  [[ $state == arguments ]] || return\n  case $words[1] in\n";

@@ -24,8 +24,8 @@ std::string any_of(const Range& names) {
   return "(" + text + ")";
 }
 
-const std::string number = R"([-+]?(pi|inf|[0-9]+\.?[0-9]*([eE][-+]?[0-9]+)?|\.[0-9]+([eE][-+]?[0-9]+)?))",
-                  product = number + "( *[*/] *" + number + ")*";
+const std::string number_pattern = R"([-+]?(pi|inf|[0-9]+\.?[0-9]*([eE][-+]?[0-9]+)?|\.[0-9]+([eE][-+]?[0-9]+)?))",
+                  product = number_pattern + "( *[*/] *" + number_pattern + ")*";
 
 /// A unit by its form: symbols with prefixes and powers.
 std::string unit() {
@@ -39,7 +39,7 @@ std::string unit() {
 
 /// A number as a text, in quotes: a product with pi, or one in % or, of a quantity, in a unit.
 std::string measure(bool has_unit) {
-  const std::string with_pi = "(" + number + R"( *[*/] *)*[-+]?pi( *[*/] *)" + number + ")*";
+  const std::string with_pi = "(" + number_pattern + R"( *[*/] *)*[-+]?pi( *[*/] *)" + number_pattern + ")*";
   return "(" + with_pi + "|" + product + " *" + (has_unit ? "(" + unit() + ")" : "%") + ")";
 }
 

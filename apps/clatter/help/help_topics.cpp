@@ -14,7 +14,7 @@
 namespace clatter::app {
 namespace {
 
-constexpr std::string_view whole = "configuration", all_results = "results", units = "units";
+constexpr std::string_view whole_topic = "configuration", all_results = "results", units_topic = "units";
 
 bool contains(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
@@ -57,9 +57,9 @@ std::string both(const std::string& first, const std::string& second) {
   const std::vector<std::string_view> names(all.begin(), all.end());
   if (const std::string_view near = config::nearest(topic, names); !near.empty())
     throw UsageError("no help on " + config::in_quotes(topic) + "; did you mean '" + std::string(near) + "'?");
-  std::vector<std::string_view> first{whole};
+  std::vector<std::string_view> first{whole_topic};
   for (const Command& command : commands()) first.push_back(command.name);
-  first.insert(first.end(), {all_results, units});
+  first.insert(first.end(), {all_results, units_topic});
   throw UsageError("no help on " + config::in_quotes(topic) + "; there is help on: " + config::joined(first) +
                    ", and on every section, key and result");
 }
@@ -69,7 +69,7 @@ std::string both(const std::string& first, const std::string& second) {
 std::vector<std::string> help_topics() {
   std::vector<std::string> all;
   for (const Command& command : commands()) all.emplace_back(command.name);
-  all.emplace_back(whole);
+  all.emplace_back(whole_topic);
   for (const Key& key : config::keys()) all.emplace_back(key.name);
   for (const std::string_view section : config::sections()) {
     all.emplace_back(section);
@@ -77,7 +77,7 @@ std::vector<std::string> help_topics() {
       all.push_back(std::string(section) + '.' + std::string(name));
   }
   for (const std::string_view function : config::axis_function_names()) all.emplace_back(function);
-  all.emplace_back(all_results), all.emplace_back(units);
+  all.emplace_back(all_results), all.emplace_back(units_topic);
   for (const CataloguedResult& result : result_catalogue())
     if (std::ranges::find(all, result.name) == all.end()) all.push_back(result.name);
   return all;
@@ -85,7 +85,7 @@ std::vector<std::string> help_topics() {
 
 std::string help_on(const std::string& topic) {
   std::string_view name = topic;
-  if (name == whole) return config::configuration_reference();
+  if (name == whole_topic) return config::configuration_reference();
   if (name == all_results) return list_of_results();
   const std::string of_results = references(results_named(name));
   for (const Command& command : commands()) {
@@ -93,7 +93,7 @@ std::string help_on(const std::string& topic) {
   }
   const std::vector<const Key*> named = keys_named(name);
   if (!named.empty() || !of_results.empty()) return both(references(named), of_results);
-  if (name == units || contains(config::axis_function_names(), name)) return std::string(config::value_reference());
+  if (name == units_topic || contains(config::axis_function_names(), name)) return std::string(config::value_reference());
   if (name.starts_with('[') && name.ends_with(']')) name = name.substr(1, name.size() - 2);
   if (contains(config::sections(), name)) return config::section_reference(name);
   refuse(topic);

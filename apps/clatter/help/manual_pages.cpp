@@ -114,7 +114,7 @@ ManualPage command_page(const Command& command) {
                   see_also({reference_to("clatter", '1'), reference_to("clatter-config", '5')}));
 }
 
-constexpr std::string_view description =
+constexpr std::string_view program_description =
     "clatter computes how a mass on a spring and a damper, shaken by a harmonic force, knocks between stops:";
 constexpr std::string_view equations =
     "  x'' + 2 h x' + x = f sin(nu tau + phase) + load,\n"
@@ -137,7 +137,7 @@ ManualPage program_page() {
   return page(
       "clatter", '1', program_summary,
       section("SYNOPSIS", synopsis) +
-          section("DESCRIPTION", prose(description) + ".PP\n" + verbatim(equations) + ".PP\n" + prose(method)) +
+          section("DESCRIPTION", prose(program_description) + ".PP\n" + verbatim(equations) + ".PP\n" + prose(method)) +
           section("COMMANDS", items) + section("OPTIONS", option_items(program_options())) +
           section("ENVIRONMENT", item(bold("CLATTER_ARCH"),
                                       prose("instruction set to compute with, as --arch of a command names it"))) +

@@ -32,7 +32,7 @@ constexpr std::array stops{SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t into = -1;  ///< the pipe of the present Checkpointer
 
-void take(int number) {
+void take_checkpoint_signal(int number) {
   const int before = errno;
   handle(stops, SIG_DFL);  // the next signal ends the process
   const char byte = static_cast<char>(number);
@@ -53,7 +53,7 @@ Checkpointer::Checkpointer(storage::Journal& journal, std::function<void()> save
     for (const int number : ends_) ::close(number);
     throw storage::IoError(std::string("cannot start a thread: ").append(error.what()).append("; raise ulimit -u"));
   }
-  handle(stops, take);
+  handle(stops, take_checkpoint_signal);
 }
 
 Checkpointer::~Checkpointer() {

@@ -29,7 +29,7 @@ constexpr std::array<std::pair<std::string_view, Comparison>, 7> signs{{{"<=", C
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> other_signs{
     {{"=<", "<="}, {"=>", ">="}, {"<>", "!="}, {"=!", "!="}}};
 
-constexpr std::string_view comparing = "=<>!", examples = "expected e.g. nu=1.0, 'impact_speed < 0.4 m/s' or word=LU";
+constexpr std::string_view comparing = "=<>!", conditions = "expected e.g. nu=1.0, 'impact_speed < 0.4 m/s' or word=LU";
 
 std::string_view sign_of(Comparison comparison) {
   if (comparison == Comparison::equal) return "=";
@@ -121,7 +121,7 @@ void require_one_sign(const std::string& option, std::string_view text, std::siz
   if (second == std::string::npos) throw ChoiceError(option + ": the name comes first; write " + first);
   if (begins_number(condition.name))
     throw ChoiceError(option + ": a condition has one comparison; write " + first + ' ' + option_with(condition.word));
-  throw ChoiceError(option + ": a condition has one comparison; " + std::string(examples));
+  throw ChoiceError(option + ": a condition has one comparison; " + std::string(conditions));
 }
 
 }  // namespace
@@ -165,11 +165,11 @@ Condition condition_of(const std::string& text) {
   const auto sign = std::ranges::find_if(
       signs, [&](const auto& one) { return at != std::string::npos && text.substr(at).starts_with(one.first); });
   const std::string name(config::without_blanks(std::string_view(text).substr(0, std::min(at, text.size()))));
-  if (sign == signs.end() || name.empty()) throw ChoiceError(option + "; " + std::string(examples));
+  if (sign == signs.end() || name.empty()) throw ChoiceError(option + "; " + std::string(conditions));
   const std::size_t end = at + sign->first.size();
   Condition condition{
       name, sign->second, {}, config::unquoted(config::without_blanks(std::string_view(text).substr(end)))};
-  if (condition.word.empty()) throw ChoiceError(option + ": nothing to compare with; " + std::string(examples));
+  if (condition.word.empty()) throw ChoiceError(option + ": nothing to compare with; " + std::string(conditions));
   require_one(option, std::string_view(text).substr(0, end), std::string_view(text).substr(end));
   require_one_sign(option, text, at, condition);
   const bool is_word = condition.word.find_first_of("0123456789") == std::string::npos &&
@@ -179,7 +179,7 @@ Condition condition_of(const std::string& text) {
   try {
     condition.value = config::parse_reading({condition.word, {.source = option}});
   } catch (const config::ConfigError& error) {
-    if (begins_number(condition.word)) throw ChoiceError(std::string(error.what()) + "; " + std::string(examples));
+    if (begins_number(condition.word)) throw ChoiceError(std::string(error.what()) + "; " + std::string(conditions));
   }
   return condition;
 }

@@ -23,6 +23,10 @@ void append_text(std::string& text, std::string_view field) {
   text += '"';
 }
 
+std::size_t size_of(const results::Variable& variable) {
+  return std::visit([](const auto& values) { return values.size(); }, variable.values);
+}
+
 void append_value(std::string& text, const results::ValueArray& values, std::size_t index,
                   const std::vector<std::string>& meanings) {
   std::visit(

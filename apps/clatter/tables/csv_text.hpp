@@ -16,6 +16,9 @@ void append_number(std::string& text, double value);
 /// Appends a field, in quotes if it needs them (RFC 4180, 2).
 void append_text(std::string& text, std::string_view field);
 
+/// How many values a variable has.
+[[nodiscard]] std::size_t size_of(const results::Variable& variable);
+
 /// Appends one of many values; an integer by its meaning, if it has one.
 void append_value(std::string& text, const results::ValueArray& values, std::size_t index,
                   const std::vector<std::string>& meanings = {});

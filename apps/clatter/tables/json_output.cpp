@@ -21,7 +21,7 @@ std::string text_of(const Json& json, int indent) {
 constexpr int in_lines = 2, in_one_line = -1;
 
 /// A whole number, that is computed in double since it may be beyond any integer.
-Json whole(double number) {
+Json whole_number(double number) {
   return number < 0x1p63 ? Json(static_cast<std::int64_t>(number)) : Json(number);  // infinity becomes null
 }
 
@@ -174,12 +174,12 @@ std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
                   {"threads", threads},
                   {"seconds", pair_of(seconds_of(plan, threads))},
                   {"foretold_seconds", or_null(seconds, itself)},
-                  {"output_bytes", whole(plan.need.output)},
-                  {"memory_bytes", whole(plan.need.memory)},
-                  {"disk_bytes", whole(plan.need.disk())},
-                  {"merge_memory_bytes", whole(plan.need.merging)},
-                  {"estimated_log_bytes", whole(plan.need.log)},
-                  {"machine_bytes", whole(plan.available_memory)},
+                  {"output_bytes", whole_number(plan.need.output)},
+                  {"memory_bytes", whole_number(plan.need.memory)},
+                  {"disk_bytes", whole_number(plan.need.disk())},
+                  {"merge_memory_bytes", whole_number(plan.need.merging)},
+                  {"estimated_log_bytes", whole_number(plan.need.log)},
+                  {"machine_bytes", whole_number(plan.available_memory)},
                   {"warnings", plan.warnings}},
                  in_lines);
 }

@@ -9,16 +9,16 @@
 namespace clatter::app {
 namespace {
 
-constexpr std::array stops{SIGINT, SIGTERM};
+constexpr std::array ending_signals{SIGINT, SIGTERM};
 
 volatile std::sig_atomic_t came = 0;
 
-void take(int number) {
+void take_signal(int number) {
   const int before = errno;
   came = number;
-  handle(stops, SIG_DFL);  // the next signal of either kind ends the process
+  handle(ending_signals, SIG_DFL);  // the next signal of either kind ends the process
   static constexpr std::array message =
-      std::to_array("\nclatter: stopping after the present run; a second signal stops at once\n");
+      std::to_array("\nclatter: stopping after the present run; a second signal ending_signals at once\n");
   (void)!write(STDERR_FILENO, message.data(), message.size() - 1);  // a signal handler may call little else
   errno = before;
 }
@@ -32,10 +32,10 @@ void handle(std::span<const int> signals, void (*handler)(int)) {
 
 Interrupt::Interrupt() {
   came = 0;
-  handle(stops, take);
+  handle(ending_signals, take_signal);
 }
 
-Interrupt::~Interrupt() { handle(stops, SIG_DFL); }
+Interrupt::~Interrupt() { handle(ending_signals, SIG_DFL); }
 
 int Interrupt::signal() { return came; }
 
