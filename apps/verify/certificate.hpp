@@ -38,6 +38,9 @@ class Number {
 /// A value and how far the true one may be from it.
 struct Claimed {
   Number value, error;
+
+  [[nodiscard]] Ball earliest() const { return value.ball() - error.ball(); }
+  [[nodiscard]] Ball latest() const { return value.ball() + error.ball(); }
 };
 
 enum class SpecialKind { fold, flip, symmetry_breaking, graze, impact_speed, impact_power };

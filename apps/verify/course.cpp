@@ -34,8 +34,6 @@ double height_of(const Certificate& certificate) {
     if (claim) least = std::min(least, accuracy_of(*claim));
   return least;
 }
-Ball latest(const Claimed& claimed) { return claimed.value.ball() + claimed.error.ball(); }
-
 }  // namespace
 
 /// An event that is none by the time it is claimed refutes a claim, also if what comes later can't be told.
@@ -45,9 +43,9 @@ Event Course::found_for(const ClaimedEvent& claim) {
     return next_event(&claim);
   } catch (const Undecided&) {
     if (motion_.stretches().size() != before ||
-        !motion_.is_clear_until(smaller(latest(claim.until ? *claim.until : claim.time), end_)))
+        !motion_.is_clear_until(smaller((claim.until ? *claim.until : claim.time).latest(), end_)))
       throw;
-    return {Kind::end, claim.side, latest(claim.time), Ball(0), Ball(0)};
+    return {Kind::end, claim.side, claim.time.latest(), Ball(0), Ball(0)};
   }
 }
 
@@ -58,7 +56,7 @@ Event Course::next_event(const ClaimedEvent* claim) {
   if (motion_.is_resting()) return motion_.finish_rest(end_);
   if (claim == nullptr || motion_.is_sticking()) return motion_.next(end_);
   if (claim->kind == Kind::chatter)
-    return motion_.finish_chatter({accuracy_of(*claim->until), height_of(certificate_), latest(*claim->until), end_});
+    return motion_.finish_chatter({accuracy_of(*claim->until), height_of(certificate_), claim->until->latest(), end_});
   if (claim->kind == Kind::graze) return motion_.graze(claim->side, claim->time.value.ball(), end_);
   return motion_.next(end_);
 }

@@ -34,19 +34,19 @@ Ball Piece::range(const Margin& margin, int order) const {
 namespace {
 
 /// What a piece of a flight does to a margin that is positive where it begins, or vanishes there.
-enum class Course { clear, crosses, unknown };
+enum class Clearance { clear, crosses, unknown };
 
 template <class Flight>
-Course course_of(const Piece& piece, const Flight& flight, const Margin& margin, bool begins, const Ball& to) {
+Clearance clearance_of(const Piece& piece, const Flight& flight, const Margin& margin, bool begins, const Ball& to) {
   if (begins && margin.vanishing > 0)
-    return piece.range(margin, margin.vanishing).is_positive() ? Course::clear : Course::unknown;
-  if (piece.range(margin, 0).is_positive()) return Course::clear;
+    return piece.range(margin, margin.vanishing).is_positive() ? Clearance::clear : Clearance::unknown;
+  if (piece.range(margin, 0).is_positive()) return Clearance::clear;
   const Ball rate = piece.range(margin, 1);
-  if (rate.is_positive()) return Course::clear;
-  if (!rate.is_negative()) return Course::unknown;
+  if (rate.is_positive()) return Clearance::clear;
+  if (!rate.is_negative()) return Clearance::unknown;
   const Flow::Instant end = flight.at(to);
   const Ball value = margin.of(end.x, end.v);
-  return value.is_positive() ? Course::clear : value.is_negative() ? Course::crosses : Course::unknown;
+  return value.is_positive() ? Clearance::clear : value.is_negative() ? Clearance::crosses : Clearance::unknown;
 }
 
 /// A step for the first piece: half of a short flight, if the first derivatives tell of one.
@@ -81,9 +81,9 @@ std::optional<Crossing> first_crossing(double fastest, const Flight& flight, std
     std::optional<std::size_t> crosses;
     bool known = true;
     for (std::size_t i = 0; i < margins.size() && known; ++i) {
-      const Course course = course_of(piece, flight, margins[i], from.is_zero(), to);
-      known = course == Course::clear || (course == Course::crosses && !crosses);
-      if (course == Course::crosses) crosses = i;
+      const Clearance clearance = clearance_of(piece, flight, margins[i], from.is_zero(), to);
+      known = clearance == Clearance::clear || (clearance == Clearance::crosses && !crosses);
+      if (clearance == Clearance::crosses) crosses = i;
     }
     if (known && crosses) return Crossing{*crosses, from, to};
     if (known) {

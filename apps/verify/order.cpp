@@ -5,9 +5,6 @@
 namespace verify {
 namespace {
 
-Ball earliest(const Claimed& claimed) { return claimed.value.ball() - claimed.error.ball(); }
-Ball latest(const Claimed& claimed) { return claimed.value.ball() + claimed.error.ball(); }
-
 /// Whether walls or a stop take all speed in an impact.
 bool is_inelastic(const Certificate::SceneNumbers& scene, Side side) {
   if (scene.loose) return scene.loose->R[index_of(side)].ball().is_zero();
@@ -27,11 +24,11 @@ void require_possible_order(const Certificate& certificate) {
   const auto& events = certificate.events;
   for (std::size_t i = 0; i < events.size(); ++i) {
     const ClaimedEvent& event = events[i];
-    if (event.until && latest(*event.until) < earliest(event.time))
+    if (event.until && event.until->latest() < event.time.earliest())
       throw Refuted(named(i, event) + ": claimed until before its time");
     if (i == 0) continue;
     const ClaimedEvent& before = events[i - 1];
-    if (latest(event.time) < earliest(before.until ? *before.until : before.time))
+    if (event.time.latest() < (before.until ? *before.until : before.time).earliest())
       throw Refuted(named(i, event) + ": claimed before the end of event " + std::to_string(i));
     if (holds(event.kind) && !leads_to_rest(certificate.scene, before, event.side))
       throw Refuted(named(i, event) + ": claimed, and neither a chatter nor an impact with R = 0 leads to it");
