@@ -83,7 +83,7 @@ class Build(unittest.TestCase):
         for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
             words = entry["command"].split()
             compiled = words[words.index("-o") + 1]  # perhaps of several files
-            if compiled.startswith(("src/", "apps/")):
+            if compiled.startswith(("src/", "apps/")) and compiled.endswith(".o"):
                 kept = [word for word in words if re.fullmatch(r"-O\d", word)]
                 symbols = shared_symbols(build / compiled)
                 if kept[-1:] == ["-O1"]:

@@ -18,7 +18,7 @@ void take_signal(int number) {
   came = number;
   handle(ending_signals, SIG_DFL);  // the next signal of either kind ends the process
   static constexpr std::array message =
-      std::to_array("\nclatter: stopping after the present run; a second signal ending_signals at once\n");
+      std::to_array("\nclatter: stopping after the present run; a second signal stops at once\n");
   (void)!write(STDERR_FILENO, message.data(), message.size() - 1);  // a signal handler may call little else
   errno = before;
 }
