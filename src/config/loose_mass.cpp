@@ -128,10 +128,6 @@ void check_followed(const Settings& settings, const Own& own) {
 
 /// Keys that don't know a loose mass.
 void check_uses(const Settings& settings) {
-  if (const Setting* const rests = settings.find("observe", "time_to_rest");
-      rests != nullptr && settings.flag("observe", "time_to_rest"))
-    refuse(rests->key_location, "'time_to_rest'",
-           "take word = true, which says which wall presses the loose mass, or a trajectory");
   if (const Setting* const across = settings.find("branch", "across"); across != nullptr)
     refuse(across->key_location, "'across'", "leave it and curve out, and follow branches at several values of it");
   const Own own = own_of(settings);

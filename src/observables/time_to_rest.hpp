@@ -4,15 +4,19 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "motion/event.hpp"
+#include "motion/housed_arc.hpp"
+#include "motion/relative_arc.hpp"
 #include "observables/observable.hpp"
 
 namespace clatter::observables {
 
 /// The time from which on a stop or dry friction holds the mass for good; of transients. A mass at rest that no force
-/// moves stays there, and so does one that the force doesn't move in a whole period of its own.
+/// moves stays there, and so does one that the force doesn't move in a whole period of its own. A loose mass has to be
+/// at rest in its housing, too: pressed by a wall, or where it stands without a load.
 struct TimeToRest {
   struct Settings {
     bool time_to_rest = false;
@@ -42,18 +46,25 @@ class TimeToRest::Observer {
  public:
   Observer(const Settings&, const ObservedSpan&) {}
 
+  /// With a loose mass an arc shows a time for which the main one is held, too.
   template <class A>
-  void arc(const A&, double, double length) {
-    if (length > 0) since_.reset();
+  void arc(const A& arc, double begin, double length) {
+    const bool is_held = std::exchange(is_held_, false);
+    if (!(length > 0)) return;
+    if constexpr (motion::Housed<A>)
+      if (is_held && stands(arc.loose)) return rest(begin, begin + length);
+    since_.reset();
   }
   /// A time in which the mass isn't held is the end of a chatter, which is motion, or that of a force too low to be
   /// told from rest.
   void event(const motion::Event& event) {
     using Kind = motion::Event::Kind;
+    if (event.has_arc) {
+      is_held_ = is_held_ || (event.kind != Kind::hold && event.held);
+      return;
+    }
     if (event.kind == Kind::impact || event.kind == Kind::touch || event.kind == Kind::renewal) since_.reset();
-    if (!event.lasts() || event.kind == Kind::hold || (!event.held && !since_)) return;
-    if (!since_) since_ = event.time;
-    until_ = event.end();
+    if (event.lasts() && (event.held || since_)) rest(event.time, event.end());
   }
   /// The steady response moves.
   bool response(const ObservedSpan&, double) { return true; }
@@ -67,6 +78,18 @@ class TimeToRest::Observer {
   }
 
  private:
+  void rest(double begin, double end) {
+    if (!since_) since_ = begin;
+    until_ = end;
+  }
+  [[nodiscard]] static bool stands(const motion::Pressed&) { return true; }
+  /// A loose mass in flight.
+  template <class Flight>
+  [[nodiscard]] static bool stands(const Flight& flight) {
+    return flight.start().v == 0 && flight.load() == 0;
+  }
+
+  bool is_held_ = false;           ///< the main mass, by what the next arc shows
   std::optional<double> since_{};  ///< the beginning of the rest that goes on; nothing: the mass moves
   double until_ = 0.0;
 };
