@@ -93,7 +93,8 @@ std::string help_on(const std::string& topic) {
   }
   const std::vector<const Key*> named = keys_named(name);
   if (!named.empty() || !of_results.empty()) return both(references(named), of_results);
-  if (name == units_topic || contains(config::axis_function_names(), name)) return std::string(config::value_reference());
+  if (name == units_topic || contains(config::axis_function_names(), name))
+    return std::string(config::value_reference());
   if (name.starts_with('[') && name.ends_with(']')) name = name.substr(1, name.size() - 2);
   if (contains(config::sections(), name)) return config::section_reference(name);
   refuse(topic);

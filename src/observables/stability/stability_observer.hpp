@@ -5,11 +5,11 @@
 #include <numbers>
 #include <optional>
 
+#include "motion/linear_maps.hpp"
 #include "motion/loose_tangent.hpp"
 #include "motion/neighbourhood.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "motion/tangent_map.hpp"
-#include "motion/linear_maps.hpp"
 #include "observables/stability/rough_grazes.hpp"
 #include "observables/stability/stability.hpp"
 #include "observables/stability/wall_grazes.hpp"
@@ -113,7 +113,8 @@ class Stability::Observer {
   [[nodiscard]] Values of_loose_mass(const ObservedSpan& span) const {
     Values values;
     const double power = loose_->exponent();
-    if (!span.periodic) values.lyapunov = (motion::log_norm(loose_->mantissa()) + power * std::numbers::ln2) / span.total;
+    if (!span.periodic)
+      values.lyapunov = (motion::log_norm(loose_->mantissa()) + power * std::numbers::ln2) / span.total;
     if (!span.periodic || grazes()) return values;
     auto all = motion::known_of(motion::multipliers_of(loose_->mantissa()), power);
     if (loose_->loses_two()) all[2] = all[3] = 0.0;  // but for rounding
