@@ -144,7 +144,7 @@ std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& p
     last = sections->states.back(), log_area += sections->log_area;
     if (may_repeat && sections->repeats_after > 0) {
       if (const auto periodic = periodic_of(problem, last, sections->repeats_after)) {
-        motions_[*periodic].periodic->floats = floats;
+        if (floats) motions_[*periodic].periodic->floats = true;  // else it may have come to float meanwhile
         return periodic;
       }
       may_repeat = false;  // by rounding alone, and so it would again
