@@ -222,8 +222,9 @@ class Follower {
     const Side side = equations.shape().events[event].side;
     const OrbitEvent &turn = touch.orbit.events[touch.event], &begins = touch.orbit.events[event];
     const bool at_once = turn.side == side && turn.phase - begins.phase < 1e-2;
-    if (!at_once || !is_impact(begins.kind)) return false;
-    if (numbers_of<double>(equations.scene_at(touch.beyond.at)).law(side).share_at_rest() != 0) return false;
+    if (!at_once || begins.kind != Event::Kind::impact) return false;
+    const SceneNumbers<double> p = numbers_of<double>(equations.scene_at(touch.beyond.at));
+    if (law_at(p, begins.kind, side).share_at_rest() != 0) return false;
     const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, event}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
     if (!exact || std::abs(exact->back() - touch.beyond.at.back()) > near(step)) return false;
@@ -318,8 +319,9 @@ class Follower {
   }
 
   void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special, int came = 0) {
+    if (has_loose_mass(scene.loose) && !orbit.meets_walls()) return;  // the loose mass may be anywhere
     if (orbit.size() == 0 && orbit.pressed == Side::none) {
-      if (scene.oscillator.stiffness == 0 || has_loose_mass(scene.loose)) return;  // it has no place of its own
+      if (scene.oscillator.stiffness == 0) return;  // it has no place of its own
       orbit = Orbit{};
     }
     // without it the motion may repeat sooner, or be symmetric
@@ -342,7 +344,8 @@ class Follower {
 
 Branches follow_branches(const StartProblem& problem, const BranchSettings& settings) {
   Branches found = Follower(problem, settings).run();
-  found.word_sticks = problem.observe.word && problem.observe.word_sticks;
+  found.letters = {.sticks = problem.observe.word && problem.observe.word_sticks,
+                   .walls = !has_loose_mass(problem.loose) || has_events_of_its_own(problem)};
   return found;
 }
 

@@ -61,7 +61,7 @@ struct Branches {
   std::vector<SpecialPoint> special;
   std::vector<BranchEnd> ends;
   OfBirths<std::size_t> left_out{};  ///< special points with a birth that isn't followed
-  bool word_sticks = false;          ///< words of the motions have a letter for each stick
+  WordLetters letters{};             ///< of the words of the motions
 };
 
 /// Follows the branch of a problem both ways from its start, and what it leads to. Throws StartError if the scene

@@ -41,12 +41,12 @@ class Columns {
   }
 
   /// The variables that describe each motion.
-  void add_motions(const std::vector<BranchPoint>& points, const BranchSettings& settings, bool word_sticks) {
+  void add_motions(const std::vector<BranchPoint>& points, const BranchSettings& settings, const WordLetters& letters) {
     std::vector<double> value, second, x, v, period, symmetric, re, im;
     std::vector<std::uint8_t> stable;
     std::vector<std::string> word, regime;
     std::vector<double> low, high, v_low, v_high, speed, power;
-    std::vector<double> z, w, y_low, y_high, z_low, z_high;  // of a loose mass
+    std::vector<double> z, w, y_low, y_high, z_low, z_high, wall_speed;  // of a loose mass
     for (const BranchPoint& point : points) {
       const attractors::SectionState state = state_at_phase_zero(point.scene, point.orbit);
       const observables::Extrema::Values range = extrema(point.scene, point.orbit);
@@ -54,19 +54,20 @@ class Columns {
       value.push_back(value_of(point.scene, settings.along));
       if (settings.across) second.push_back(value_of(point.scene, *settings.across));
       x.push_back(state.x), v.push_back(state.v);
-      period.push_back(point.orbit.period_ratio()), word.push_back(point.orbit.word(word_sticks));
-      regime.push_back(point.orbit.regime());
+      period.push_back(point.orbit.period_ratio()), word.push_back(point.orbit.word(letters));
+      regime.push_back(point.orbit.regime(letters));
       symmetric.push_back(is_symmetric(point.scene) ? point.orbit.mirrored : no_value);
       stable.push_back(point.stable);
       const auto numbers = static_cast<std::ptrdiff_t>(multipliers_in(point.scene));
       re.insert(re.end(), point.multiplier_re.begin(), point.multiplier_re.begin() + numbers);
       im.insert(im.end(), point.multiplier_im.begin(), point.multiplier_im.begin() + numbers);
       z.push_back(state.z), w.push_back(state.w);
+      wall_speed.push_back(wall_impact_speed(point.orbit));
       y_low.push_back(range.y_min), y_high.push_back(range.y_max);
       z_low.push_back(range.z_min), z_high.push_back(range.z_max);
       low.push_back(std::max(range.x_min, rigid.lower)), high.push_back(std::min(range.x_max, rigid.upper));
       v_low.push_back(range.v_min), v_high.push_back(range.v_max);
-      speed.push_back(impact_speed(point.orbit)), power.push_back(impact_power(point.scene, point.orbit));
+      speed.push_back(impact_speed(point.orbit, letters)), power.push_back(impact_power(point.scene, point.orbit));
     }
     add_parameter(settings.along, std::move(value), "parameter along which the motion is followed");
     if (settings.across) add_parameter(*settings.across, std::move(second), "second parameter of the curve");
@@ -74,7 +75,8 @@ class Columns {
     add("v", Quantity::velocity, std::move(v), "velocity at forcing phase 0");
     add("period_ratio", std::move(period), "period of the motion over the forcing period");
     add("word", std::move(word),
-        word_sticks ? "impacts of one period in order, L and U; S: stick" : "impacts of one period in order, L and U");
+        std::string("impacts of one period in order, L and U") + (letters.sticks ? "; S: stick" : "") +
+            (in_housing_ && letters.walls ? "; l, u: walls of the loose mass" : ""));
     dataset_.variables.back().missing_if = "no stop is hit";
     add("regime", std::move(regime), "impacts on one stop over forcing periods");
     add("symmetric", std::move(symmetric), "1: the motion is its own mirror image; NaN: the scene isn't symmetric");
@@ -95,6 +97,9 @@ class Columns {
       add("z_max", Quantity::length, std::move(z_high), "maximum place of the loose mass in the housing");
     }
     add("impact_speed", Quantity::velocity, std::move(speed), "speed of the fastest impact");
+    if (in_housing_ && letters.walls)
+      add("wall_impact_speed", Quantity::velocity, std::move(wall_speed),
+          "speed of the fastest impact of the loose mass");
     add("impact_power", Quantity::power, std::move(power),
         units_.is_si ? "energy lost in impacts per second" : "energy lost in impacts per tau, per unit mass");
   }
@@ -153,7 +158,7 @@ results::Dataset branch_dataset(const Branches& branches, const BranchSettings& 
   dataset.dimensions.push_back({"multiplier", in_housing ? 4U : 2U});
   points.add("branch", std::move(branch), settings.across ? "number of the curve" : "number of the branch");
   points.add("arclength", std::move(arclength), "along the branch or curve, over the width of its range");
-  points.add_motions(branches.points, settings, branches.word_sticks);
+  points.add_motions(branches.points, settings, branches.letters);
 
   if (settings.births) dataset.attributes.emplace_back("births_left_out", births_text(branches.left_out));
   std::size_t most = 1;
@@ -174,7 +179,7 @@ results::Dataset branch_dataset(const Branches& branches, const BranchSettings& 
   specials.add("branch", std::move(meeting), "numbers of the branches, or the curves, that meet there; -1: no more",
                {"meeting"});
   if (settings.births) specials.add("left_out", std::move(left_out), "1: a birth there isn't followed");
-  specials.add_motions(at, settings, branches.word_sticks);
+  specials.add_motions(at, settings, branches.letters);
   sweep::add_drawn_names(units.is_si, dataset, in_housing, in_housing);
   name_observables(dataset);
   return dataset;

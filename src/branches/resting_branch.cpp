@@ -254,7 +254,7 @@ void RestingBranch::note_maxima(double here, double next, const Orbit& like) {
 
 bool RestingBranch::waits_beyond(const BranchPoint& last, Side stop, std::int64_t generation) {
   if (!record_.is_of_cascade(last)) return false;
-  if (has_loose_mass(problem_.loose)) return true;  // beyond the limit a wall presses it, which isn't followed
+  if (has_loose_mass(problem_.loose)) return true;  // beyond the limit something holds a mass, which isn't followed
   const double distance = record_.way_to(last);
   const auto resting = resting_ahead(last, stop, distance);
   if (resting)
@@ -265,6 +265,7 @@ bool RestingBranch::waits_beyond(const BranchPoint& last, Side stop, std::int64_
 
 void RestingBranch::wait_beyond(const BranchPoint& last, Side stop, double ahead, std::size_t special,
                                 std::int64_t generation) {
+  if (has_loose_mass(problem_.loose)) return;  // a main mass at rest isn't followed
   if (const auto resting = resting_ahead(last, stop, ahead))
     waiting_.push_back({scene(resting->first), resting->second, {}, special, generation, ahead > 0 ? 1 : -1});
 }

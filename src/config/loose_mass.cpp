@@ -107,23 +107,28 @@ void check_force(const Settings& settings, const AxisGroups& groups) {
     refuse(section->key_location, "a section without a force", "give " + key + ", or observe a trajectory");
 }
 
-/// Refuses a branch along what a scene with a loose mass doesn't have, or of a main mass with events of its own.
-void check_followed(const Settings& settings, const Own& own) {
+/// Refuses a branch along what a scene with a loose mass doesn't have, or under friction.
+void check_followed(const Settings& settings) {
   const std::optional<Parameter> along = followed(settings);
   if (!along) return;
-  if (own.place != nullptr)
-    fail(*own.place, own.name + " conflicts with [branch] beside 'loose_mass'; run a sweep, and give it follow = " +
-                         in_quotes(along->key()));
+  if (const Own friction = friction_of(settings); friction.place != nullptr)
+    fail(*friction.place, friction.name +
+                              " conflicts with [branch] beside 'loose_mass'; run a sweep, and give it follow = " +
+                              in_quotes(along->key()));
   const Setting &place = *settings.find("branch", "along"), *const range = settings.find("branch", "range");
-  if (conflicts_with_loose_mass(*along))
-    refuse(
-        place.location, "along = " + in_quotes(along->key()),
-        "branches have a main mass without stops and friction; follow loose_gap, loose_lower, loose_upper or loose_R");
-  const bool needs_positive = *along == loose_mass || *along == Parameter("stiffness");
-  if (needs_positive && range != nullptr && !(settings.interval("branch", "range")[0] > 0))
+  if (along->role() == Role::friction || *along == "stop_amplitude")
+    refuse(place.location, "along = " + in_quotes(along->key()),
+           "it is followed without a loose mass alone; run a sweep of it, or follow another parameter");
+  if (conflicts_with_loose_mass(*along) && place_of_stop(settings) == nullptr)
+    refuse(place.location, "along = " + in_quotes(along->key()),
+           "the main mass has no stop; follow loose_gap, loose_lower, loose_upper or loose_R, or give it stops");
+  const bool is_stiffness = *along == "stiffness";
+  if (!(*along == loose_mass || is_stiffness) || range == nullptr) return;
+  const auto [low, high] = settings.interval("branch", "range");
+  if (!(low > 0) && !(is_stiffness && high < 0))
     fail(range->location, "range of " + in_quotes(along->key()) + " reaches 0, where there is no " +
-                              (*along == loose_mass ? "loose mass" : "spring to hold the main mass") +
-                              "; begin it above 0");
+                              (is_stiffness ? "spring, from whose equilibrium places count; keep it on one side of 0"
+                                            : "loose mass; begin it above 0"));
 }
 
 /// Keys that don't know a loose mass.
@@ -131,7 +136,7 @@ void check_uses(const Settings& settings) {
   if (const Setting* const across = settings.find("branch", "across"); across != nullptr)
     refuse(across->key_location, "'across'", "leave it and curve out, and follow branches at several values of it");
   const Own own = own_of(settings);
-  check_followed(settings, own);
+  check_followed(settings);
   const auto refuse_own = [](const Own& of_main, const std::string& beside, const std::string& way_out) {
     if (of_main.place != nullptr)
       fail(*of_main.place, of_main.name + " conflicts with " + beside + " beside 'loose_mass'; " + way_out);

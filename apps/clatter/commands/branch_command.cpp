@@ -21,13 +21,13 @@ using branches::SpecialPoint;
 
 /// "fold                  nu = 1.42486182628998  speed 1.72122564705845  LU  branch 0"
 std::string special_text(const SpecialPoint& special, const std::vector<Parameter>& parameters, const Units& units,
-                         bool word_sticks) {
+                         const branches::WordLetters& letters) {
   std::string text(name_of(special.kind));
-  const std::string word = special.at.orbit.word(word_sticks);
+  const std::string word = special.at.orbit.word(letters);
   text.resize(22, ' ');
   for (const Parameter parameter : parameters)
     text += std::string(parameter.key()) + " = " + formatted("%-18.15g", value_of(special.at.scene, parameter)) + ' ';
-  const double speed = factor_of(units, Quantity::velocity) * branches::impact_speed(special.at.orbit);
+  const double speed = factor_of(units, Quantity::velocity) * branches::impact_speed(special.at.orbit, letters);
   text += "speed " + formatted("%-18.15g", speed) + ' ' +
           (word == observables::ImpactWord::no_contact ? "no impacts" : word) +
           (parameters.size() > 1 ? "  curve" : "  branch");
@@ -90,8 +90,7 @@ int run_branch(const Arguments& arguments) {
   };
   place.write_atomically(write);
   for (const SpecialPoint& special : found.special)
-    std::cout << (arguments.has("json") ? special_json : special_text)(special, parameters, start.units,
-                                                                       found.word_sticks);
+    std::cout << (arguments.has("json") ? special_json : special_text)(special, parameters, start.units, found.letters);
   std::cout << std::flush;
   tell_failures(found, settings, file);
   if (arguments.has("quiet")) return code_of(found);

@@ -201,16 +201,16 @@ std::string accuracy_json(const accuracy::PointAccuracy& of_point, const sweep::
 }
 
 std::string special_json(const branches::SpecialPoint& special, const std::vector<Parameter>& parameters,
-                         const Units& units, bool word_sticks) {
+                         const Units& units, const branches::WordLetters& letters) {
   const branches::BranchPoint& at = special.at;
   const attractors::SectionState state = branches::state_at_phase_zero(at.scene, at.orbit);
   const double velocity = factor_of(units, Quantity::velocity);
   Json json{{"kind", name_of(special.kind)}};
   for (const Parameter parameter : parameters) json[std::string(parameter.key())] = value_of(at.scene, parameter);
-  json["impact_speed"] = velocity * branches::impact_speed(at.orbit);
+  json["impact_speed"] = velocity * branches::impact_speed(at.orbit, letters);
   json["x"] = state.x, json["v"] = velocity * state.v;
   if (has_loose_mass(at.scene.loose)) json["z"] = state.z, json["w"] = velocity * state.w;
-  json["period_ratio"] = at.orbit.period_ratio(), json["word"] = at.orbit.word(word_sticks);
+  json["period_ratio"] = at.orbit.period_ratio(), json["word"] = at.orbit.word(letters);
   json["stable"] = at.stable;
   json["multipliers"] = Json::array();
   for (std::size_t i = 0; i < branches::multipliers_in(at.scene); ++i)

@@ -48,6 +48,6 @@ namespace clatter::app {
 /// A special point of a branch: {"kind":"fold","nu":1.42, ... "multipliers":[[1.0,0.0],[0.1,0.0]], ...} in one line;
 /// multipliers are pairs of real and imaginary parts. "left_out": a birth there isn't followed.
 [[nodiscard]] std::string special_json(const branches::SpecialPoint& special, const std::vector<Parameter>& parameters,
-                                       const Units& units, bool word_sticks);
+                                       const Units& units, const branches::WordLetters& letters);
 
 }  // namespace clatter::app

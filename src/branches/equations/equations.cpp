@@ -122,7 +122,7 @@ OrbitEquations::OrbitEquations(const FollowedScene& scene, const Orbit& shape, s
       stiffness_varies_(
           std::ranges::any_of(axes_, [&](const Axis& axis) { return varies_stiffness(scene, axis.parameter); })),
       is_in_housing_(has_loose_mass(scene.loose)),
-      per_event_(is_in_housing_ ? of_wall_impact : 2) {}
+      per_event_(is_in_housing_ ? of_event : 2) {}
 
 std::optional<std::size_t> OrbitEquations::grazing() const {
   for (const Condition& condition : conditions_)
@@ -147,7 +147,7 @@ Vector OrbitEquations::unknowns_of(const FollowedScene& scene, const Orbit& orbi
     const OrbitEvent& event = orbit.events[i];
     const std::size_t phase = phase_of(i);
     z[phase] = event.phase, z[phase + 1] = event.coordinate() / speed_unit_;
-    if (is_in_housing_) z[phase + 2] = event.main.place / speed_unit_, z[phase + 3] = event.main.before / speed_unit_;
+    if (is_in_housing_) z[phase + 2] = event.other.place / speed_unit_, z[phase + 3] = event.other.before / speed_unit_;
   }
   for (std::size_t k = 0; k < axes_.size(); ++k)
     z[first_axis() + k] = value_of(scene, axes_[k].parameter) / axes_[k].unit;
@@ -160,7 +160,7 @@ Orbit OrbitEquations::orbit_at(const Vector& z) const {
     OrbitEvent& event = orbit.events[i];
     const std::size_t phase = phase_of(i);
     event.phase = z[phase], event.coordinate() = z[phase + 1] * speed_unit_;
-    if (is_in_housing_) event.main = {z[phase + 2] * speed_unit_, z[phase + 3] * speed_unit_};
+    if (is_in_housing_) event.other = {z[phase + 2] * speed_unit_, z[phase + 3] * speed_unit_};
   }
   return orbit;
 }

@@ -39,9 +39,9 @@ struct Condition {
 
 /// The equations of periodic motion with given events (multiple shooting over arcs): every flight ends on the stop of
 /// the next event, with its velocity, or halts in its place. Unknowns are phase and velocity of each event, or phase
-/// and place of each halt, or at a strike phase, z', and place and velocity of the main mass; then one or two
-/// parameters, in units of the speed and the widths that the constructor is given. Motion through stops solves them,
-/// too: `violation` says whether a flight meets a stop before its end.
+/// and place of each halt, with a loose mass also place and velocity of the other one of the two masses; then one or
+/// two parameters, in units of the speed and the widths that the constructor is given. Motion through stops solves
+/// them, too: `violation` says whether a flight meets a stop before its end.
 class OrbitEquations {
  public:
   /// One parameter, or two, in the user's units; its unit here is the width of its range.
@@ -87,7 +87,7 @@ class OrbitEquations {
   [[nodiscard]] bool is_released_at_crest(std::size_t halt) const;
 
  private:
-  /// The flights of a loose mass in its housing, and the equation of one of its multipliers.
+  /// The flights of two masses, and the equation of one of their multipliers.
   void add_flights_in_housing(const FollowedScene& scene, const Orbit& orbit, Linearised& out) const;
   void add_multiplier_in_housing(const FollowedScene& scene, const Orbit& orbit, const Condition& condition,
                                  std::size_t row, Linearised& out) const;

@@ -13,6 +13,7 @@
 #include "motion/arc.hpp"
 #include "motion/dry_friction.hpp"
 #include "motion/soft_contact.hpp"
+#include "motion/walls.hpp"
 #include "scene/smooth_effects.hpp"
 
 namespace clatter::branches {
@@ -25,6 +26,12 @@ decltype(auto) with_arcs(const Scene& scene, Function&& function, bool stiffness
   if (stiffness_varies || oscillator.stiffness != 1.0)
     return with_smooth_effects<true>(oscillator, std::forward<Function>(function));
   return with_smooth_effects<false>(oscillator, std::forward<Function>(function));
+}
+
+/// That of a stop, or of a wall of a loose mass.
+template <class Number>
+[[nodiscard]] Restitution<Number> law_at(const SceneNumbers<Number>& p, Event::Kind kind, Side side) {
+  return kind == Event::Kind::strike ? motion::WallRule<Number>(p.loose).law(side) : p.law(side);
 }
 
 /// A flight begins just after an event at phase `begin`, in rad, with the coordinate and side of that as `OrbitEvent`
@@ -116,19 +123,42 @@ class Flights {
     return flight.begin + hold_and_beyond(flight.coordinate, flight.begin, flight.from);
   }
 
+  /// Calls `function(arc)` with the arc that a mass at a place goes on with, in contact with a soft stop or not.
+  template <class Function>
+  decltype(auto) with_arc_from(const Number& place, const Number& v, const Number& phase, Side pressed,
+                               Function&& function) const {
+    const Number x = p_.middle() + place;
+    const Side beyond = pressed == Side::none ? damped_stop_beyond(x) : pressed;
+    if (beyond == Side::none) return function(arc_from(constants_, x, v, phase));
+    return with_constants(pressed, [&](const auto& constants) {
+      const Number& stop = p_.position(beyond);
+      return function(arc_beside(constants, stop, Number(x - stop), v, phase));
+    });
+  }
+  /// The soft stop beyond whose place a mass is that it may be in contact with, or not: its damper relaxes slowly.
+  [[nodiscard]] Side damped_stop_beyond(const Number& x) const {
+    for (const Side side : {Side::lower, Side::upper})
+      if (is_soft(p_.stops, side) && p_.soft_stop(side).damping != 0 && sign_of(side) * (x - p_.position(side)) > 0)
+        return side;
+    return Side::none;
+  }
+
   /// Flies through stops, if it meets any.
   [[nodiscard]] FlightEnd<Number> fly(const Flight<Number>& flight) const {
     const Number time = (flight.end - start(flight)) / p_.oscillator.frequency;
-    return with_arc(flight, [&](const auto& arc) -> FlightEnd<Number> {
-      if (flight.may_vanish(p_)) return fly_beyond(arc, flight, time);
-      const motion::Motion<Number> end = arc.at(time);
-      if (halts(flight.arrives)) return {end.v, Number(end.x - p_.middle())};
-      const bool comes_back = flight.from == flight.to && !halts(flight.leaves);
-      Number beyond = comes_back ? end.offset : Number(end.x - p_.position(flight.to));
-      if (flight.arrives == Event::Kind::separation || flight.arrives == Event::Kind::renewal)
-        beyond += p_.soft_stop(flight.to).relaxation() * end.v;
-      return {beyond, end.v};
-    });
+    return with_arc(flight, [&](const auto& arc) { return end_of(arc, flight, time); });
+  }
+  /// The end of a flight a time after its beginning.
+  template <class A>
+  [[nodiscard]] FlightEnd<Number> end_of(const A& arc, const Flight<Number>& flight, const Number& time) const {
+    if (flight.may_vanish(p_)) return fly_beyond(arc, flight, time);
+    const motion::Motion<Number> end = arc.at(time);
+    if (halts(flight.arrives)) return {end.v, Number(end.x - p_.middle())};
+    const bool comes_back = flight.from == flight.to && !halts(flight.leaves);
+    Number beyond = comes_back ? end.offset : Number(end.x - p_.position(flight.to));
+    if (flight.arrives == Event::Kind::separation || flight.arrives == Event::Kind::renewal)
+      beyond += p_.soft_stop(flight.to).relaxation() * end.v;
+    return {beyond, end.v};
   }
 
   /// Calls `function(arc, response)` with motion without events: the response to the force, free or in contact with a

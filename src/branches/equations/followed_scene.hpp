@@ -60,6 +60,11 @@ struct SceneNumbers : BasicScene<Number> {
     if (this->oscillator.stiffness != 0) return this->oscillator.load / this->oscillator.stiffness;
     return is_finite(lower) && is_finite(upper) ? Number((lower + upper) / 2) : Number(0);
   }
+  /// The middle of the walls of a loose mass; of one wall 0.
+  [[nodiscard]] Number middle_of_walls() const {
+    const auto& [lower, upper] = std::pair(this->loose.lower, this->loose.upper);
+    return is_finite(lower) && is_finite(upper) ? Number((lower + upper) / 2) : Number(0);
+  }
   /// In the frame of what is shaken, with a loose mass in that of the ground.
   [[nodiscard]] LeadingForce<Number> force() const {
     if (this->loose.ratio != 0) return force_on_ground(this->oscillator, this->shaking);

@@ -9,9 +9,9 @@ void OrbitEquations::add_flights_in_housing(const FollowedScene& scene, const Or
   const std::vector<HousingLink> links = housing_links(scene, orbit, axes_);
   for (std::size_t i = 0; i < links.size(); ++i) {
     const std::size_t begin = phase_of(i), end = i + 1 == links.size() ? 0 : phase_of(i + 1);
-    for (std::size_t row = 0; row < of_wall_impact; ++row) {
+    for (std::size_t row = 0; row < of_event; ++row) {
       out.residual[begin + row] = links[i].residual[row];
-      for (std::size_t j = 0; j < of_wall_impact; ++j) {
+      for (std::size_t j = 0; j < of_event; ++j) {
         const double unit = j == 0 ? 1.0 : speed_unit_;
         out.slope(begin + row, begin + j) += links[i].by_begin[row][j] * unit;
         out.slope(begin + row, end + j) += links[i].by_end[row][j] * unit;
@@ -27,8 +27,8 @@ void OrbitEquations::add_multiplier_in_housing(const FollowedScene& scene, const
   const HousingMultiplier of = housing_multiplier(scene, orbit, axes_, condition.multiplier, speed_unit_);
   out.residual[row] = of.value;
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    for (std::size_t j = 0; j < of_wall_impact; ++j)
-      out.slope(row, phase_of(i) + j) = of.slopes.by_impact[i][j] * (j == 0 ? 1.0 : speed_unit_);
+    for (std::size_t j = 0; j < of_event; ++j)
+      out.slope(row, phase_of(i) + j) = of.slopes.by_event[i][j] * (j == 0 ? 1.0 : speed_unit_);
   for (std::size_t k = 0; k < axes_.size(); ++k)
     out.slope(row, first_axis() + k) = of.slopes.by_axis[k] * axes_[k].unit;
 }

@@ -5,11 +5,9 @@
 #include <cstddef>
 #include <utility>
 
-#include "branches/equations/followed_scene.hpp"
-#include "branches/equations/orbit.hpp"
+#include "branches/equations/flight.hpp"
 #include "motion/relative_arc.hpp"
 #include "motion/walls.hpp"
-#include "scene/smooth_effects.hpp"
 
 namespace clatter::branches {
 
@@ -20,67 +18,106 @@ decltype(auto) with_arcs_of_main(const Scene& scene, Function&& function) {
   return with_smooth_effects<true>(oscillator_in_frame(scene), std::forward<Function>(function));
 }
 
-/// An impact of a loose mass on a wall of its housing: its phase (rad) and what both masses do before it.
+/// A flight of two masses from an event of one of them, with that one's numbers as `OrbitEvent` has them, to another.
 template <class Number>
-struct WallImpact {
-  Side wall;
-  Number phase;
-  Number w;      ///< z'
-  Number place;  ///< displacement of the main mass less `SceneNumbers::middle`
-  Number v;      ///< its velocity
+struct FlightOfBoth {
+  Event::Kind leaves = Event::Kind::strike, arrives = Event::Kind::strike;
+  Side from, to;
+  Number begin, coordinate, other_place, other_before, end;
+  Side pressed = Side::none;  ///< the soft stop that the main mass is in contact with
+
+  /// That of the main mass alone. From a strike it begins where the mass just is, in contact or not.
+  [[nodiscard]] Flight<Number> of_main(Side beside) const {
+    return {leaves == Event::Kind::strike ? beside : from, begin, coordinate, to, end, leaves, arrives};
+  }
 };
 
-[[nodiscard]] inline WallImpact<double> wall_impact(const OrbitEvent& impact) {
-  return {impact.side, impact.phase, impact.before, impact.main.place, impact.main.before};
+/// That of an orbit; `number(value, i)` makes the numbers of the event that it begins with, 0 ... 3, and the phase at
+/// its end, 4.
+template <class Number, class Make>
+[[nodiscard]] FlightOfBoth<Number> flight_of_both(const Orbit& orbit, std::size_t i, const Make& number) {
+  const OrbitEvent from = orbit.event(i), to = orbit.event(i + 1);
+  return {from.kind,
+          to.kind,
+          from.side,
+          to.side,
+          number(from.phase, 0),
+          number(from.coordinate(), 1),
+          number(from.other.place, 2),
+          number(from.other.before, 3),
+          number(to.phase, 4),
+          orbit.pressed_after(i)};
+}
+[[nodiscard]] inline FlightOfBoth<double> flight_of_both(const Orbit& orbit, std::size_t i) {
+  return flight_of_both<double>(orbit, i, [](double value, std::size_t) { return value; });
 }
 
-/// The flights of a loose mass in its housing at given parameters (eqs. 68 and 70). Arcs refer to it.
+/// The flights of a loose mass in its housing, and of the main mass beside it, at given parameters (eqs. 68 and 70).
+/// Arcs refer to it.
 template <class Number, Effects E>
 class HousingFlights {
  public:
-  using Arc = motion::RelativeArc<Number, E>;
+  explicit HousingFlights(const SceneNumbers<Number>& parameters) : main_(parameters) {}
 
-  explicit HousingFlights(const SceneNumbers<Number>& parameters) : HousingFlights(parameters, parameters.force()) {}
-  HousingFlights(const HousingFlights&) = delete;
-  HousingFlights& operator=(const HousingFlights&) = delete;
+  [[nodiscard]] const motion::ArcConstants<Number, E>& constants() const { return main_.constants(); }
+  [[nodiscard]] const SceneNumbers<Number>& parameters() const { return main_.parameters(); }
+  [[nodiscard]] const Flights<Number, E>& of_main() const { return main_; }
 
-  [[nodiscard]] const motion::ArcConstants<Number, E>& constants() const { return constants_; }
-  [[nodiscard]] const SceneNumbers<Number>& parameters() const { return p_; }
-  [[nodiscard]] const Number& wall(Side side) const { return side == Side::upper ? p_.loose.upper : p_.loose.lower; }
-  [[nodiscard]] motion::WallRule<Number> rule() const { return motion::WallRule<Number>(p_.loose); }
-
-  /// The motion of the main mass alone from a state on.
-  [[nodiscard]] motion::Arc<Number, E> main_from(const Number& phase, const Number& place, const Number& v) const {
-    using std::cos, std::sin;
-    const Number of_force = phase + lead_, sine = sin(of_force), cosine = cos(of_force), x = p_.middle() + place;
-    const Number a = constants_.acceleration(Number(x - constants_.equilibrium), v, sine);
-    return {constants_, {Number(0), x, v, a, sine, cosine}};
+  /// Calls `function(arc)` with the flight of the loose mass, which has that of the main mass.
+  template <class Function>
+  decltype(auto) with_arc(const FlightOfBoth<Number>& flight, Function&& function) const {
+    const auto& p = parameters();
+    if (flight.leaves == Event::Kind::strike) {
+      const motion::WallRule<Number> rule(p.loose);
+      const Number v = rule.main_after(flight.other_before, flight.coordinate),
+                   w = rule.law(flight.from).after(flight.coordinate);
+      return main_.with_arc_from(flight.other_place, v, flight.begin, flight.pressed, [&](const auto& main) {
+        return function(motion::RelativeArc(main, {wall(flight.from), Number(0), w, Number(w + v)}, p.loose.load));
+      });
+    }
+    const Number before = halts(flight.leaves) ? Number(0) : flight.coordinate, v = before + flight.other_before,
+                 z = p.middle_of_walls() + flight.other_place;
+    return main_.with_arc(flight.of_main(Side::none), [&](const auto& main) {
+      return function(motion::RelativeArc(main, {Number(0), z, Number(v - main.start().v), v}, p.loose.load));
+    });
   }
-  /// The flight that begins with an impact.
-  [[nodiscard]] Arc after(const WallImpact<Number>& impact) const {
-    const Number v = rule().main_after(impact.v, impact.w), w = rule().law(impact.wall).after(impact.w);
-    return {main_from(impact.phase, impact.place, v), {wall(impact.wall), Number(0), w, Number(w + v)}, p_.loose.load};
+
+  /// The end of a flight as `OrbitEvent` has it, with how far it is beyond its stop or wall in place of the phase. It
+  /// goes through others, if it meets any.
+  [[nodiscard]] std::array<Number, 4> end(const FlightOfBoth<Number>& flight) const {
+    const Number time = (flight.end - flight.begin) / parameters().oscillator.frequency;
+    return with_arc(flight, [&](const auto& arc) -> std::array<Number, 4> {
+      const motion::Motion<Number> m = at(arc, time);
+      if (flight.arrives == Event::Kind::strike) {
+        const motion::Motion<Number> main = arc.main_at(m);
+        const bool comes_back = flight.leaves == Event::Kind::strike && flight.from == flight.to;
+        const Number beyond = comes_back ? m.offset : Number((arc.anchor() - wall(flight.to)) + m.offset);
+        return {beyond, m.v, main.x - parameters().middle(), main.v};
+      }
+      const FlightEnd<Number> main = main_.end_of(arc.main(), flight.of_main(beside(flight)), time);
+      return {main.beyond, main.coordinate, m.x - parameters().middle_of_walls(), m.v};
+    });
   }
-  /// A flight `advance` of the phase after its beginning, beside a wall: z less the place of that, z', and place and
-  /// velocity of the main mass. It goes through walls, if it meets any.
-  [[nodiscard]] std::array<Number, 4> end(const WallImpact<Number>& from, const Number& phase, Side to) const {
-    const Arc arc = after(from);
-    const motion::Motion<Number> m = arc.at(Number((phase - from.phase) / p_.oscillator.frequency)),
-                                 main = arc.main_at(m);
-    const Number beside = to == from.wall ? m.offset : Number((wall(from.wall) - wall(to)) + m.offset);
-    return {beside, m.v, main.x - p_.middle(), main.v};
+  /// The stop that the arc of the main mass counts from, if a flight begins with a strike.
+  [[nodiscard]] Side beside(const FlightOfBoth<Number>& flight) const {
+    if (flight.pressed != Side::none) return flight.pressed;
+    return main_.damped_stop_beyond(Number(parameters().middle() + flight.other_place));
   }
 
  private:
-  HousingFlights(const SceneNumbers<Number>& parameters, const LeadingForce<Number>& force)
-      : p_(parameters),
-        lead_(force.lead),
-        constants_(motion::ArcConstants<Number, E>::of(p_.oscillator.damping, force.amplitude, p_.oscillator.frequency,
-                                                       p_.oscillator.load, p_.oscillator.stiffness)) {}
+  [[nodiscard]] const Number& wall(Side side) const {
+    return side == Side::upper ? parameters().loose.upper : parameters().loose.lower;
+  }
+  /// Motion on an arc, which Newton's method may ask for before its beginning, if a flight is about to vanish.
+  template <class A>
+  [[nodiscard]] static motion::Motion<Number> at(const A& arc, const Number& time) {
+    if (time > 0) return arc.at(time);
+    motion::Motion<Number> m = arc.start();
+    m.offset += m.v * time, m.x += m.v * time, m.v += m.a * time;
+    return m;
+  }
 
-  SceneNumbers<Number> p_;
-  Number lead_;
-  motion::ArcConstants<Number, E> constants_;
+  Flights<Number, E> main_;
 };
 
 }  // namespace clatter::branches

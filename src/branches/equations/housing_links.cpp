@@ -8,8 +8,8 @@
 namespace clatter::branches {
 namespace {
 
-/// Derivatives by the impact that a flight begins with, by the phase at its end, and by two parameters.
-constexpr std::size_t by_end_phase = of_wall_impact, by_first_axis = by_end_phase + 1;
+/// Derivatives by the event that a flight begins with, by the phase at its end, and by two parameters.
+constexpr std::size_t by_end_phase = of_event, by_first_axis = by_end_phase + 1;
 using First = Dual<double, by_first_axis + 2>;
 using Along1 = Dual<First, 1>;  // of those, the change in one direction
 
@@ -22,13 +22,6 @@ SceneNumbers<Number> numbers_along(const FollowedScene& scene, const std::vector
   });
 }
 
-/// The flight of two impacts on numbers that carry derivatives, and the change of both in one direction.
-template <class Number>
-WallImpact<Number> begin_of(const OrbitEvent& impact) {
-  return {impact.side, Number(First(impact.phase, 0)), Number(First(impact.before, 1)),
-          Number(First(impact.main.place, 2)), Number(First(impact.main.before, 3))};
-}
-
 }  // namespace
 
 std::vector<HousingLink> housing_links(const FollowedScene& scene, const Orbit& orbit,
@@ -38,13 +31,14 @@ std::vector<HousingLink> housing_links(const FollowedScene& scene, const Orbit& 
     const HousingFlights<First, E> flights(numbers_along<First>(scene, axes));
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const OrbitEvent next = orbit.event(i + 1);
-      const std::array<double, of_wall_impact> there{0.0, next.before, next.main.place, next.main.before};
-      const auto end = flights.end(begin_of<First>(orbit.event(i)), First(next.phase, by_end_phase), next.side);
+      const std::array<double, of_event> there{0.0, next.coordinate(), next.other.place, next.other.before};
+      const auto end =
+          flights.end(flight_of_both<First>(orbit, i, [](double value, std::size_t k) { return First(value, k); }));
       HousingLink link;
-      for (std::size_t row = 0; row < of_wall_impact; ++row) {
+      for (std::size_t row = 0; row < of_event; ++row) {
         const auto& slope = end[row].slope;
         link.residual[row] = end[row].value - there[row];
-        std::copy_n(slope.begin(), of_wall_impact, link.by_begin[row].begin());
+        std::copy_n(slope.begin(), of_event, link.by_begin[row].begin());
         link.by_end[row][0] = slope[by_end_phase];
         if (row > 0) link.by_end[row][row] = orbit.ends_mirrored(i) ? 1.0 : -1.0;
         for (std::size_t k = 0; k < axes.size(); ++k) link.by_axis[row][k] = slope[by_first_axis + k];
@@ -66,22 +60,19 @@ HousingSlopes housing_slopes(const FollowedScene& scene, const Orbit& orbit,
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const bool closes = i + 1 == orbit.size();
       const std::size_t next = closes ? 0 : i + 1;
-      const auto change = [&](std::size_t impact, std::size_t unknown) {
-        return First(right[of_wall_impact * impact + unknown]);
+      const auto varied = [&](double value, std::size_t k) {
+        Along1 number(First(value, k));
+        number.slope[0] = k < of_event ? right[of_event * i + k]
+                                       : right[of_event * next] * (closes ? static_cast<double>(multiplier) : 1.0);
+        return number;
       };
-      WallImpact<Along1> from = begin_of<Along1>(orbit.event(i));
-      from.phase.slope[0] = change(i, 0), from.w.slope[0] = change(i, 1);
-      from.place.slope[0] = change(i, 2), from.v.slope[0] = change(i, 3);
-      Along1 phase(First(orbit.event(i + 1).phase, by_end_phase));
-      phase.slope[0] = change(next, 0) * First(closes ? multiplier : 1);
-      const auto end = flights.end(from, phase, orbit.event(i + 1).side);
-      for (std::size_t row = 0; row < of_wall_impact; ++row) {
+      const auto end = flights.end(flight_of_both<Along1>(orbit, i, varied));
+      for (std::size_t row = 0; row < of_event; ++row) {
         const auto& slope = end[row].slope[0].slope;
-        for (std::size_t j = 0; j < of_wall_impact; ++j)
-          found.by_impact[i][j] += left[of_wall_impact * i + row] * slope[j];
-        found.by_impact[next][0] += left[of_wall_impact * i + row] * slope[by_end_phase];
+        for (std::size_t j = 0; j < of_event; ++j) found.by_event[i][j] += left[of_event * i + row] * slope[j];
+        found.by_event[next][0] += left[of_event * i + row] * slope[by_end_phase];
         for (std::size_t k = 0; k < axes.size(); ++k)
-          found.by_axis[k] += left[of_wall_impact * i + row] * slope[by_first_axis + k];
+          found.by_axis[k] += left[of_event * i + row] * slope[by_first_axis + k];
       }
     }
   };

@@ -5,12 +5,13 @@
 #include <limits>
 
 #include "branches/equations/housing_flight.hpp"
+#include "branches/equations/links.hpp"
 #include "motion/linear_maps.hpp"
 
 namespace clatter::branches {
 namespace {
 
-constexpr auto four = static_cast<Eigen::Index>(of_wall_impact);
+constexpr auto four = static_cast<Eigen::Index>(of_event);
 
 Eigen::Matrix4d matrix_of(const Square4& square) {
   Eigen::Matrix4d matrix;
@@ -27,7 +28,7 @@ Square4 square_of(const Eigen::Matrix4d& matrix) {
   return square;
 }
 
-/// The map of small changes from impact to impact: the phase of the next one makes up for the change of the gap.
+/// The map of small changes from event to event: the phase of the next one makes up for the change of the gap.
 Eigen::Matrix4d map_of(const HousingLink& link) {
   const Eigen::Matrix4d begin = matrix_of(link.by_begin), end = matrix_of(link.by_end);
   Eigen::Matrix4d map;
@@ -37,7 +38,7 @@ Eigen::Matrix4d map_of(const HousingLink& link) {
   return map;
 }
 
-/// The equations of small changes of all impacts, of which the last flight returns the first `multiplier` times as
+/// The equations of small changes of all events, of which the last flight returns the first `multiplier` times as
 /// large.
 template <class Number>
 Eigen::MatrixX<Number> changes_of(const std::vector<HousingLink>& links, Number multiplier, double speed_unit) {
@@ -86,24 +87,25 @@ HousingMultiplier housing_multiplier(const FollowedScene& scene, const Orbit& or
   const LeastChange least = least_change(changes_of<double>(housing_links(scene, orbit, axes), multiplier, speed_unit));
   Vector right(least.right.begin(), least.right.end());
   for (std::size_t i = 0; i < right.size(); ++i)
-    if (i % of_wall_impact != 0) right[i] *= speed_unit;
+    if (i % of_event != 0) right[i] *= speed_unit;
   // the derivative of a singular value is left . dJ right
   return {least.size, housing_slopes(scene, orbit, axes, {least.left.begin(), least.left.end()}, right, multiplier)};
 }
 
 namespace {
 
-/// The map of small changes of the first impact over a period, or half a period; of motion without impacts that of its
+/// The map of small changes of the first event over a period, or half a period; of motion without events that of its
 /// state.
 Eigen::Matrix4d map_of(const FollowedScene& scene, const Orbit& orbit) {
   Eigen::Matrix4d map = Eigen::Matrix4d::Identity();
   if (orbit.size() == 0)
     with_arcs_of_main(scene, [&]<Effects E>() {
       const HousingFlights<double, E> flights(numbers_of<double>(scene));
-      const auto& c = flights.constants();
-      const double time = orbit.advance() / c.nu;
-      const motion::Propagator<double> free = c.propagator(time);
-      map.topLeftCorner<2, 2>() << free.a, free.b, -c.spring(free.b), free.c;
+      const double time = orbit.advance() / flights.constants().nu;
+      flights.of_main().with_constants(orbit.pressed, [&](const auto& c) {
+        const motion::Propagator<double> free = c.propagator(time);
+        map.topLeftCorner<2, 2>() << free.a, free.b, -c.spring(free.b), free.c;
+      });
       map(2, 3) = time;
       if (orbit.mirrored) map = -map;
     });
@@ -123,10 +125,8 @@ HousingCharacteristic housing_characteristic(const FollowedScene& scene, const O
       changes_of<std::complex<double>>(links, std::complex<double>(0.0, 1.0), 1.0).determinant();
   HousingCharacteristic found;
   for (const HousingLink& link : links)
-    for (std::size_t i = 0; i < of_wall_impact; ++i) found.leading *= link.by_end[i][i];
-  found.determinant = std::exp(-2 * p.oscillator.damping * orbit.advance() / p.oscillator.frequency);
-  for (const OrbitEvent& impact : orbit.events)
-    found.determinant *= std::pow(motion::WallRule<double>(p.loose).law(impact.side).R, 2);
+    for (std::size_t i = 0; i < of_event; ++i) found.leading *= link.by_end[i][i];
+  found.determinant = detail::determinant_of(p, orbit);
   const double sum = (at_minus_1 - at_1) / 2, difference = at_i.imag();  // a + c, a - c
   found.a = (sum + difference) / 2, found.c = (sum - difference) / 2;
   found.b = (at_1 + at_minus_1) / 2 - found.leading * (1 + found.determinant);

@@ -19,11 +19,11 @@ struct HousingMultiplier {
                                                    const std::vector<OrbitEquations::Axis>& axes, int multiplier,
                                                    double speed_unit);
 
-/// The characteristic polynomial of the map from one impact on a wall to the same impact a period, or half a period,
-/// later: `leading` times s^4 - a s^3 + b s^2 - c s + D. All but D are multiplied by `leading`, which is 0 in a graze.
+/// The characteristic polynomial of the map from one event to the same one a period, or half a period, later:
+/// `leading` times s^4 - a s^3 + b s^2 - c s + D. All but D are multiplied by `leading`, which is 0 in a graze.
 struct HousingCharacteristic {
   double leading = 1.0, a = 0.0, b = 0.0, c = 0.0;
-  double determinant = 1.0;  ///< D, the product of the multipliers: e^(-2 h T) R^(2 n)
+  double determinant = 1.0;  ///< D, the product of the multipliers, as `ImpactMap` has it
 
   /// Its value at +1 or -1: zero if that is a multiplier.
   [[nodiscard]] double at(int multiplier) const { return leading * (1 + determinant) + b - multiplier * (a + c); }
@@ -35,7 +35,7 @@ struct HousingCharacteristic {
 [[nodiscard]] HousingCharacteristic housing_characteristic(const FollowedScene& scene, const Orbit& orbit);
 
 /// The multipliers of the orbit as it is kept, the largest modulus first; NaN in a graze, and beside one so large that
-/// others have no digits. Of motion without impacts two are 1, those of the loose mass.
+/// others have no digits. Of motion that meets no wall two are 1, those of the loose mass.
 [[nodiscard]] std::array<std::complex<double>, 4> housing_multipliers(const FollowedScene& scene, const Orbit& orbit);
 
 /// The unit direction from a flip, or a loss of symmetry, into the motion that is born there, as

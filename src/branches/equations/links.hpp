@@ -154,14 +154,16 @@ Number determinant_of(const SceneNumbers<Number>& p, const Orbit& orbit) {
   const auto press = [&](Side side, double advance) {
     determinant *= exp(Number(-2) * p.soft_stop(side).damping * (Number(advance) / p.oscillator.frequency));
   };
-  if (orbit.pressed != Side::none) press(orbit.pressed, orbit.advance());
+  if (orbit.pressed != Side::none && orbit.size() == 0) press(orbit.pressed, orbit.advance());
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const OrbitEvent& event = orbit.events[i];
-    if (event.kind == Event::Kind::impact) {
+    if (is_impact(event.kind)) {
       const Number v(event.before);
-      determinant *= -p.law(event.side).share(v) * p.law(event.side).derivative(v);
+      const Restitution<Number> law = law_at(p, event.kind, event.side);
+      determinant *= -law.share(v) * law.derivative(v);
     }
-    if (presses(event.kind)) press(event.side, orbit.event(i + 1).phase - event.phase);
+    if (const Side side = orbit.pressed_after(i); side != Side::none)
+      press(side, orbit.event(i + 1).phase - event.phase);
     if (event.kind == Event::Kind::stick) determinant = Number(0);
     if (event.kind == Event::Kind::reversal)
       determinant *= reversal_factor(p, event.side, Number(event.phase), Number(event.place));

@@ -18,7 +18,7 @@ OrbitEvent mirrored(const OrbitEvent& event) {
           event.kind,
           event.rest,
           -event.place,
-          {-event.main.place, -event.main.before}};
+          {-event.other.place, -event.other.before}};
 }
 
 OrbitEvent later(OrbitEvent event, double advance) {
@@ -26,13 +26,13 @@ OrbitEvent later(OrbitEvent event, double advance) {
   return event;
 }
 
-std::vector<ImpactWord::Contact> contacts_of(const Orbit& orbit, bool with_sticks = false) {
+std::vector<ImpactWord::Contact> contacts_of(const Orbit& orbit, const WordLetters& letters) {
   std::vector<ImpactWord::Contact> contacts;
   for (const OrbitEvent& event : orbit.whole().events) {
-    if (with_sticks && event.kind == Event::Kind::stick) contacts.push_back({event.phase, 0.0, Side::none});
+    if (letters.sticks && event.kind == Event::Kind::stick) contacts.push_back({event.phase, 0.0, Side::none});
     if (!event.is_letter()) continue;
     const bool grazes = event.before == 0 && event.rest == 0;  // an impact, too: without speed it would be a rest
-    contacts.push_back({event.phase, grazes ? 1.0 : event.before, event.side});
+    contacts.push_back({event.phase, grazes ? 1.0 : event.before, event.side, event.is_of_wall() && letters.walls});
   }
   return contacts;
 }
@@ -65,6 +65,8 @@ bool Orbit::meets_soft_stop() const {
          });
 }
 
+bool Orbit::meets_walls() const { return std::ranges::any_of(events, &OrbitEvent::is_of_wall); }
+
 bool Orbit::halts() const {
   return std::ranges::any_of(events, [](const OrbitEvent& event) { return branches::halts(event.kind); });
 }
@@ -72,6 +74,16 @@ bool Orbit::halts() const {
 bool Orbit::changes_nothing(std::size_t i) const {
   const Event::Kind kind = events[i].kind, before = events[(i + size() - 1) % size()].kind;
   return is_impact(kind) || presses(kind) == presses(before);
+}
+
+Side Orbit::pressed_after(std::size_t i) const {
+  for (std::size_t back = 0; back < size(); ++back) {
+    const OrbitEvent last = event(i + size() - back);
+    if (last.is_of_wall()) continue;
+    if (!presses(last.kind)) return Side::none;
+    return mirrored ? branches::mirror_image(last.side) : last.side;
+  }
+  return pressed;
 }
 
 Orbit Orbit::from_event(std::size_t i) const {
@@ -103,17 +115,17 @@ Orbit Orbit::repeated(int times) const {
 }
 
 Orbit Orbit::half_if_same(double tolerance, bool symmetric_scene) const {
-  double farthest = 0, fastest = 0;  // of halts and of the main mass
+  double farthest = 0, fastest = 0;  // of halts and of the other mass
   for (const OrbitEvent& event : events) {
-    farthest = std::max({farthest, std::abs(event.place), std::abs(event.main.place)});
-    fastest = std::max(fastest, std::abs(event.main.before));
+    farthest = std::max({farthest, std::abs(event.place), std::abs(event.other.place)});
+    fastest = std::max(fastest, std::abs(event.other.before));
   }
   const auto same = [&](const OrbitEvent& a, const OrbitEvent& b) {
     return a.side == b.side && a.kind == b.kind && std::abs(a.phase - b.phase) <= tolerance &&
            std::abs(a.before - b.before) <= tolerance * std::max(std::abs(a.before), std::abs(b.before)) &&
            std::abs(a.place - b.place) <= tolerance * farthest &&
-           std::abs(a.main.place - b.main.place) <= tolerance * farthest &&
-           std::abs(a.main.before - b.main.before) <= tolerance * fastest;
+           std::abs(a.other.place - b.other.place) <= tolerance * farthest &&
+           std::abs(a.other.before - b.other.before) <= tolerance * fastest;
   };
   if (pressed != Side::none) return {{}, 2, false, pressed};
   if (size() == 0) return symmetric_scene ? Orbit{{}, 1, true} : Orbit{{}, 2, false};
@@ -132,7 +144,7 @@ Orbit Orbit::half_if_same(double tolerance, bool symmetric_scene) const {
 
 Orbit Orbit::with(const OrbitEvent& event, std::size_t after) const {
   Orbit orbit = *this;
-  orbit.pressed = Side::none;  // from now on the events tell when it is
+  if (!event.is_of_wall()) orbit.pressed = Side::none;  // from now on the events tell when it is
   orbit.events.insert(orbit.events.begin() + static_cast<std::ptrdiff_t>(after), event);
   return orbit;
 }
@@ -164,11 +176,14 @@ Orbit Orbit::once_with_graze(std::size_t i, bool symmetric_scene) const {
 }
 
 /// Motion without a letter whose soft stop is left or meets the mass again does so beyond the stop's position.
-std::string Orbit::word(bool with_sticks) const {
+std::string Orbit::word(const WordLetters& letters) const {
   const Side soft = meets_soft_stop() && !events.empty() ? events.front().side : pressed;
-  return ImpactWord::word_of(contacts_of(*this, with_sticks), soft);
+  return ImpactWord::word_of(contacts_of(*this, letters), soft);
 }
-std::string Orbit::regime() const { return ImpactWord::regime_of(contacts_of(*this), period_ratio()); }
+std::string Orbit::regime(const WordLetters& letters) const {
+  // those of sticks count for nothing
+  return ImpactWord::regime_of(contacts_of(*this, {.walls = letters.walls}), period_ratio());
+}
 
 Orbit orbit_of(const attractors::Round& round, double nu, double phase) {
   Orbit orbit{{}, 2 * static_cast<int>(round.orbit.periods), false};

@@ -33,15 +33,16 @@ using motion::Event;
 struct OrbitEvent {
   Side side = Side::none;  ///< the stop or the wall; of a halt the side that the mass slips to next
   double phase = 0.0;      ///< forcing phase, rad, growing from event to event
-  double before = 0.0;     ///< velocity before it, of a loose mass z'
+  double before = 0.0;     ///< velocity before it, at a wall z'
   Event::Kind kind = Event::Kind::impact;
   double rest = 0.0;   ///< forcing phase, rad, for which the mass rests on the stop from then on
   double place = 0.0;  ///< of a halt: displacement from `SceneNumbers::middle`
-  /// The main mass at a strike: its displacement from `SceneNumbers::middle`, and its velocity before it.
-  struct Main {
+  /// The other one of two masses before it: at a strike the main mass, its displacement from `SceneNumbers::middle` and
+  /// its velocity; at any other event the loose one, its place from `SceneNumbers::middle_of_walls`, and z'.
+  struct Other {
     double place = 0.0, before = 0.0;
   };
-  Main main{};
+  Other other{};
 
   /// The unknown beside the phase: the velocity before the event, or the place of a halt.
   [[nodiscard]] double coordinate() const { return halts(kind) ? place : before; }
@@ -49,10 +50,18 @@ struct OrbitEvent {
   /// The side that the mass moves to after a halt, or a rebound from a rigid stop.
   [[nodiscard]] Side heading() const { return halts(kind) ? side : opposite(side); }
 
+  /// Whether it is one of a loose mass, on a wall of its housing.
+  [[nodiscard]] bool is_of_wall() const { return kind == Event::Kind::strike; }
   /// Whether it is a contact from outside: an impact, or a touch.
   [[nodiscard]] bool is_contact() const { return is_impact(kind) || kind == Event::Kind::touch; }
   /// Whether it is a letter of the impact word: an impact, a touch, or a graze of a soft stop.
   [[nodiscard]] bool is_letter() const { return is_contact() || (kind == Event::Kind::separation && before == 0); }
+};
+
+/// Letters of words beside those of stops.
+struct WordLetters {
+  bool sticks = false;  ///< one for each stick
+  bool walls = true;    ///< walls of a loose mass have letters of their own; false: those of stops, as it has no stops
 };
 
 /// A periodic motion by its events. A motion that is its own mirror image half a period later is kept as that half,
@@ -61,13 +70,16 @@ struct Orbit {
   std::vector<OrbitEvent> events;
   int half_turns = 2;         ///< half forcing periods after which the events begin again, mirrored if so said
   bool mirrored = false;      ///< then half_turns is odd
-  Side pressed = Side::none;  ///< of motion without events: the soft stop that it is always in contact with
+  Side pressed = Side::none;  ///< the soft stop that the mass is in contact with, if it has no event on stops
 
   [[nodiscard]] std::size_t size() const { return events.size(); }
   [[nodiscard]] bool rests() const;  ///< on a stop, once in a period or more often
   [[nodiscard]] bool next_is_rest(std::size_t i) const { return i + 1 < size() && events[i + 1].rest > 0; }
   [[nodiscard]] bool meets_soft_stop() const;
   [[nodiscard]] bool halts() const;  ///< by dry friction, away from the stops
+  [[nodiscard]] bool meets_walls() const;
+  /// The soft stop that the mass is in contact with just after event i = 0, 1, ..., size() - 1.
+  [[nodiscard]] Side pressed_after(std::size_t i) const;
   /// Whether the motion is a solution without the event i, which grazes, too.
   [[nodiscard]] bool changes_nothing(std::size_t i) const;
   [[nodiscard]] double advance() const;       ///< of the forcing phase, rad
@@ -92,9 +104,9 @@ struct Orbit {
   /// grazes in one of them grazes in all.
   [[nodiscard]] Orbit once_with_graze(std::size_t i, bool symmetric_scene) const;
 
-  /// As `ImpactWord` gives it, if so said with a letter for each stick.
-  [[nodiscard]] std::string word(bool with_sticks = false) const;
-  [[nodiscard]] std::string regime() const;  ///< likewise
+  /// As `ImpactWord` gives it.
+  [[nodiscard]] std::string word(const WordLetters& letters = {}) const;
+  [[nodiscard]] std::string regime(const WordLetters& letters = {}) const;
 };
 
 /// The motion of a run between rigid stops over whole forcing periods from a phase on, in rad.

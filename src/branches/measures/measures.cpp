@@ -36,16 +36,17 @@ void each_flight(const FollowedScene& scene, const Orbit& orbit, Function&& func
   });
 }
 
-/// Calls `function(arc, begin, length)` for each flight in a housing, whose motion without impacts is that of no
+/// Calls `function(arc, begin, length)` for each flight in a housing, whose motion without events is that of no
 /// branch.
 template <class Function>
 void each_flight_in_housing(const FollowedScene& scene, const Orbit& orbit, Function&& function) {
   with_arcs_of_main(scene, [&]<Effects E>() {
     const HousingFlights<double, E> flights{numbers_of<double>(scene)};
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      const OrbitEvent from = orbit.event(i);
-      function(flights.after(wall_impact(from)), from.phase,
-               (orbit.event(i + 1).phase - from.phase) / flights.constants().nu);
+      const FlightOfBoth<double> flight = flight_of_both(orbit, i);
+      flights.with_arc(flight, [&](const auto& arc) {
+        function(arc, flight.begin, (flight.end - flight.begin) / flights.constants().nu);
+      });
     }
   });
 }
@@ -78,6 +79,15 @@ Multipliers multipliers_in_housing(const FollowedScene& scene, const Orbit& orbi
   return found;
 }
 
+/// Displacement and velocity of the main mass before an event.
+std::pair<double, double> main_before(const SceneNumbers<double>& p, const OrbitEvent& event) {
+  if (event.is_of_wall()) return {p.middle() + event.other.place, event.other.before};
+  if (halts(event.kind)) return {p.middle() + event.place, 0.0};
+  const bool is_at_stop = event.is_contact();
+  return {p.position(event.side) - (is_at_stop ? 0.0 : p.soft_stop(event.side).relaxation() * event.before),
+          event.before};
+}
+
 /// The state on a flight in a housing when the forcing phase is `phase`.
 template <Effects E>
 SectionState state_on(const motion::RelativeArc<double, E>& arc, double begin, double phase,
@@ -91,19 +101,25 @@ SectionState state_on(const motion::RelativeArc<double, E>& arc, double begin, d
 
 observables::Extrema::Values extrema_in_housing(const FollowedScene& scene, const Orbit& whole,
                                                 const std::optional<FrameMotion>& frame) {
-  // of a span that begins at phase 0 and ends with the first impact, where the main mass has this state
+  // of a span that begins at phase 0 and ends with the first event, where the main mass has this state
   const OrbitEvent& first = whole.events.at(0);
+  const SceneNumbers<double> p = numbers_of<double>(scene);
   const observables::ObservedSpan span{.scene = scene, .turns = first.phase / (2 * std::numbers::pi), .frame = frame};
   observables::Extrema::Observer extrema({}, span);
   each_flight_in_housing(scene, whole, [&](const auto& arc, double begin, double length) {
     extrema.arc(motion::HousedArc{arc.main(), arc}, begin / arc.constants().nu, length);
   });
   for (const OrbitEvent& event : whole.events) {
+    if (!is_impact(event.kind)) continue;  // the arcs have all others
+    const double before = event.before, main = event.other.before;
     const double wall = event.side == Side::upper ? scene.loose.upper : scene.loose.lower;
-    const double main = event.main.before;
-    extrema.event({.kind = event.kind, .side = event.side, .place = wall, .main = {0.0, main, main}});
+    if (event.is_of_wall())
+      extrema.event({.kind = event.kind, .side = event.side, .place = wall, .main = {0.0, main, main}});
+    else
+      extrema.event({.kind = event.kind, .before = before, .after = before, .place = p.position(event.side)});
   }
-  return extrema.finish(span, numbers_of<double>(scene).middle() + first.main.place, first.main.before);
+  const auto [x, v] = main_before(p, first);
+  return extrema.finish(span, x, v);
 }
 
 }  // namespace
@@ -220,10 +236,18 @@ observables::Extrema::Values extrema_as_computed(const FollowedScene& scene, con
   return {x.low, x.high, v.low, v.high};
 }
 
-double impact_speed(const Orbit& orbit) {
+double impact_speed(const Orbit& orbit, const WordLetters& letters) {
   double fastest = 0;
   for (const OrbitEvent& event : orbit.events)
-    if (event.is_letter()) fastest = std::max(fastest, std::abs(event.before));
+    if (event.is_letter() && !(letters.walls && event.is_of_wall()))
+      fastest = std::max(fastest, std::abs(event.before));
+  return fastest;
+}
+
+double wall_impact_speed(const Orbit& orbit) {
+  double fastest = 0;
+  for (const OrbitEvent& event : orbit.events)
+    if (event.is_of_wall()) fastest = std::max(fastest, std::abs(event.before));
   return fastest;
 }
 
@@ -232,7 +256,8 @@ double impact_power(const FollowedScene& scene, const Orbit& orbit) {
   double all = 0;
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (is_impact(orbit.events[i].kind))
-      all += lost_in_impact(p, orbit.events[i].side, orbit.events[i].before, orbit.next_is_rest(i));
+      all +=
+          lost_in_impact(p, orbit.events[i].kind, orbit.events[i].side, orbit.events[i].before, orbit.next_is_rest(i));
   if (orbit.meets_soft_stop()) all += loss_on_soft_stops(scene, orbit);
   return all * p.oscillator.frequency / orbit.advance() * p.mass;
 }

@@ -36,8 +36,10 @@ struct Multipliers {
 /// ground.
 [[nodiscard]] observables::Extrema::Values extrema_as_computed(const FollowedScene& scene, const Orbit& orbit);
 
-/// Speed of the fastest impact.
-[[nodiscard]] double impact_speed(const Orbit& orbit);
+/// Speed of the fastest impact on stops, and on walls that have no letters of their own.
+[[nodiscard]] double impact_speed(const Orbit& orbit, const WordLetters& letters = {});
+/// Of the fastest one on walls.
+[[nodiscard]] double wall_impact_speed(const Orbit& orbit);
 /// Energy lost on the stops per tau, of the mass over that at the start: in impacts (eq. 33), in contacts with soft
 /// stops (eq. 54); a chatter that ends in rest loses all that it has.
 [[nodiscard]] double impact_power(const FollowedScene& scene, const Orbit& orbit);

@@ -22,8 +22,8 @@ Moving motion_at(const FollowedScene& scene, const Orbit& orbit, const SceneNumb
 }
 
 /// The change of the velocity of the mass, or of the main mass, in an impact.
-Along jump_of_velocity(const SceneNumbers<Along>& p, Side side, const Along& before) {
-  if (p.loose.ratio == 0) return p.law(side).jump(before);
+Along jump_of_velocity(const SceneNumbers<Along>& p, Event::Kind kind, Side side, const Along& before) {
+  if (kind != Event::Kind::strike) return p.law(side).jump(before);
   return motion::WallRule<Along>(p.loose).main_after(Along(0), before);
 }
 
@@ -46,10 +46,25 @@ Moving moving(const OrbitEquations& equations, const Vector& point, const Vector
   Moving m = motion_at(scene, orbit, numbers_of<Along>(scene, vary));
   m.stiffness_varies = equations.stiffness_varies();
   for (std::size_t i = 0; i < orbit.size(); ++i) {
-    Along phase(orbit.events[i].phase), coordinate(orbit.events[i].coordinate());
+    const OrbitEvent& event = orbit.events[i];
     const std::size_t unknown = equations.phase_of(i);
-    phase.slope[0] = tangent[unknown], coordinate.slope[0] = tangent[unknown + 1] * equations.speed_unit();
-    m.events.push_back({orbit.events[i].side, phase, coordinate, false, orbit.events[i].kind});
+    const auto moves = [&](double value, std::size_t beside, double unit) {
+      Along number(value);
+      number.slope[0] = tangent[unknown + beside] * unit;
+      return number;
+    };
+    const double unit = equations.speed_unit();
+    m.events.push_back({event.side,
+                        moves(event.phase, 0, 1.0),
+                        moves(event.coordinate(), 1, unit),
+                        false,
+                        event.kind,
+                        {},
+                        {},
+                        orbit.pressed_after(i)});
+    if (!has_loose_mass(scene.loose)) continue;
+    m.events.back().other_place = moves(event.other.place, 2, unit);
+    m.events.back().other_before = moves(event.other.before, 3, unit);
   }
   return m;
 }
@@ -91,7 +106,7 @@ Moving moving_from_release(const FollowedScene& scene, const Orbit& orbit, Param
         };
         end.slope[0] = -along(flown.beyond) / flown.beyond.slope[by_end];
         speed.slope[0] = along(flown.coordinate) + flown.coordinate.slope[by_end] * end.slope[0];
-        m.events.push_back({event.side, end, speed, orbit.next_is_rest(i), event.kind});
+        m.events.push_back({event.side, end, speed, orbit.next_is_rest(i), event.kind, {}, {}, orbit.pressed_after(i)});
       }
       begin = end, before = speed, last = event;
     }
@@ -102,22 +117,29 @@ Moving moving_from_release(const FollowedScene& scene, const Orbit& orbit, Param
 
 double loss_on_soft_stops(const FollowedScene& scene, const Orbit& orbit) {
   Moving m = motion_at(scene, orbit, numbers_of<Along>(scene));
-  for (const OrbitEvent& event : orbit.events)
-    m.events.push_back({event.side, event.phase, event.before, false, event.kind});
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const OrbitEvent& event = orbit.events[i];
+    m.events.push_back({event.side, event.phase, event.before, false, event.kind, event.other.place, event.other.before,
+                        orbit.pressed_after(i)});
+  }
   return soft_contacts(m).loss.value;
 }
 
 Along impact_speed(const Moving& moving) {
+  const bool on_stops = has_events_of_its_own(moving.scene);
   Along fastest = 0;
-  for (const auto& [side, phase, before, rests, kind] : moving.events)
-    if (is_impact(kind) || kind == Event::Kind::touch) fastest = std::max(fastest, abs(before));
+  for (const MovingEvent& event : moving.events) {
+    const bool is_contact = is_impact(event.kind) || event.kind == Event::Kind::touch;
+    if (is_contact && !(on_stops && event.kind == Event::Kind::strike))
+      fastest = std::max(fastest, abs(event.coordinate));
+  }
   return fastest;
 }
 
 Along impact_power(const Moving& moving) {
   Along all = 0;
-  for (const auto& [side, phase, before, rests, kind] : moving.events)
-    if (is_impact(kind)) all += lost_in_impact(moving.p, side, before, rests);
+  for (const MovingEvent& event : moving.events)
+    if (is_impact(event.kind)) all += lost_in_impact(moving.p, event.kind, event.side, event.coordinate, event.rests);
   if (moving.soft) all += soft_contacts(moving).loss;
   return all / moving.period * moving.p.mass;
 }
@@ -128,10 +150,10 @@ Along harmonic(const Moving& moving) {
   const SceneNumbers<Along>& p = moving.p;
   const LeadingForce<Along> force = p.force();
   Along re = force.amplitude * sin(force.lead) / 2, im = -force.amplitude * cos(force.lead) / 2;
-  for (const auto& [side, phase, before, rests, kind] : moving.events) {
-    if (!is_impact(kind)) continue;
-    const Along jump = jump_of_velocity(p, side, before) / moving.period;
-    re += jump * cos(phase), im -= jump * sin(phase);
+  for (const MovingEvent& event : moving.events) {
+    if (!is_impact(event.kind)) continue;
+    const Along jump = jump_of_velocity(p, event.kind, event.side, event.coordinate) / moving.period;
+    re += jump * cos(event.phase), im -= jump * sin(event.phase);
   }
   if (moving.soft) {
     const SoftContacts contacts = soft_contacts(moving);

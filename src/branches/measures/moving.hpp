@@ -14,6 +14,8 @@ struct MovingEvent {
   Along phase, coordinate;  ///< as that of `OrbitEvent`
   bool rests;               ///< the next contact is a rest: this impact and those that follow lose all
   Event::Kind kind = Event::Kind::impact;
+  Along other_place{}, other_before{};  ///< likewise
+  Side pressed = Side::none;            ///< the soft stop that the mass is in contact with from then on
 };
 /// A scene's numbers and an orbit's events with their derivatives along a branch.
 struct Moving {
@@ -21,7 +23,7 @@ struct Moving {
   SceneNumbers<Along> p;
   std::vector<MovingEvent> events;
   Along period;               ///< of the events as they are kept, in tau
-  Side pressed = Side::none;  ///< of motion without events: the soft stop that it is always in contact with
+  Side pressed = Side::none;  ///< as that of `Orbit`
   bool soft = false;          ///< whether it meets soft stops
   bool stiffness_varies = false;
 };
@@ -45,10 +47,10 @@ struct Moving {
 
 /// Energy lost in an impact, per unit mass, or on a wall per unit of the main mass (eq. 70).
 template <class Number>
-[[nodiscard]] Number lost_in_impact(const SceneNumbers<Number>& p, Side side, const Number& before, bool rests) {
-  const Restitution<Number> law = p.loose.ratio == 0 ? p.law(side) : motion::WallRule<Number>(p.loose).law(side);
-  const Number lost = rests ? Number(before * before / 2) : law.lost(before);
-  return p.loose.ratio == 0 ? lost : Number(p.loose.ratio / (1 + p.loose.ratio) * lost);
+[[nodiscard]] Number lost_in_impact(const SceneNumbers<Number>& p, Event::Kind kind, Side side, const Number& before,
+                                    bool rests) {
+  const Number lost = rests ? Number(before * before / 2) : law_at(p, kind, side).lost(before);
+  return kind == Event::Kind::strike ? Number(motion::WallRule<Number>(p.loose).share() * lost) : lost;
 }
 /// The energy that soft stops take in one repetition of a motion.
 [[nodiscard]] double loss_on_soft_stops(const FollowedScene& scene, const Orbit& orbit);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "branches/equations/flight.hpp"
+#include "branches/equations/housing_flight.hpp"
 #include "observables/energy/quadrature.hpp"
 
 namespace clatter::branches {
@@ -31,37 +31,63 @@ Along stored(const motion::SoftStop<Along>& stop, const Along& velocity) {
   return stop.stiffness * depth * depth / 2;
 }
 
-template <Effects E>
-SoftContacts contacts_of(const Moving& moving) {
-  const Flights<Along, E> flights(moving.p);
-  SoftContacts sum;
+/// Contacts on arcs of a main mass: `with_arc(i, end, function)` calls `function(arc)` with that of the flight after
+/// event i, which lasts until the phase `end`.
+template <class WithArc>
+void add_contacts(const Moving& moving, const WithArc& with_arc, SoftContacts& sum) {
   const std::size_t count = moving.events.size();
-  if (moving.pressed != Side::none)
-    flights.with_response(moving.pressed, [&](const auto& arc, const auto&) {
-      add_contact(arc, moving.p.soft_stop(moving.pressed), Along(0), moving.period, sum);
-    });
   for (std::size_t i = 0; i < count; ++i) {
     const MovingEvent &from = moving.events[i], &to = moving.events[(i + 1) % count];
-    if (!presses(from.kind)) continue;
-    const motion::SoftStop<Along> stop = moving.p.soft_stop(from.side);
+    if (from.pressed == Side::none) continue;
+    const motion::SoftStop<Along> stop = moving.p.soft_stop(from.pressed);
     const Along end = i + 1 < count ? to.phase : to.phase + moving.period * moving.p.oscillator.frequency;
-    const Flight<Along> flight{from.side, from.phase, from.coordinate, to.side, end, from.kind, to.kind};
-    flights.with_arc(flight, [&](const auto& arc) {
+    with_arc(i, end, [&](const auto& arc) {
       add_contact(arc, stop, from.phase, (end - from.phase) / moving.p.oscillator.frequency, sum);
     });
     // a stop that the mass outruns relaxes as far as it is touched again
     if (to.kind == Event::Kind::separation) sum.loss += stored(stop, to.coordinate);
-    if (from.kind == Event::Kind::renewal && !presses(moving.events[(i + count - 1) % count].kind))
+    if (from.kind == Event::Kind::renewal && moving.events[(i + count - 1) % count].pressed == Side::none)
       sum.loss -= stored(stop, from.coordinate);
   }
+}
+
+template <Effects E>
+SoftContacts contacts_of_one(const Moving& moving) {
+  const Flights<Along, E> flights(moving.p);
+  SoftContacts sum;
+  if (moving.events.empty() && moving.pressed != Side::none)
+    flights.with_response(moving.pressed, [&](const auto& arc, const auto&) {
+      add_contact(arc, moving.p.soft_stop(moving.pressed), Along(0), moving.period, sum);
+    });
+  const auto with_arc = [&](std::size_t i, const Along& end, const auto& function) {
+    const MovingEvent &from = moving.events[i], &to = moving.events[(i + 1) % moving.events.size()];
+    flights.with_arc({from.side, from.phase, from.coordinate, to.side, end, from.kind, to.kind}, function);
+  };
+  add_contacts(moving, with_arc, sum);
+  return sum;
+}
+/// With a loose mass.
+template <Effects E>
+SoftContacts contacts_of_both(const Moving& moving) {
+  const HousingFlights<Along, E> flights(moving.p);
+  SoftContacts sum;
+  const auto with_arc = [&](std::size_t i, const Along& end, const auto& function) {
+    const MovingEvent &from = moving.events[i], &to = moving.events[(i + 1) % moving.events.size()];
+    flights.with_arc({from.kind, to.kind, from.side, to.side, from.phase, from.coordinate, from.other_place,
+                      from.other_before, end, from.pressed},
+                     [&](const auto& arc) { function(arc.main()); });
+  };
+  add_contacts(moving, with_arc, sum);
   return sum;
 }
 
 }  // namespace
 
 SoftContacts soft_contacts(const Moving& moving) {
+  if (has_loose_mass(moving.scene.loose))
+    return with_arcs_of_main(moving.scene, [&]<Effects E>() { return contacts_of_both<E>(moving); });
   return with_arcs(
-      moving.scene, [&]<Effects E>() { return contacts_of<E>(moving); }, moving.stiffness_varies);
+      moving.scene, [&]<Effects E>() { return contacts_of_one<E>(moving); }, moving.stiffness_varies);
 }
 
 }  // namespace clatter::branches

@@ -35,11 +35,13 @@ std::optional<double> middle_of_flight(const point::Problem& problem, std::int64
   const auto run = event_run(problem, static_cast<std::size_t>(periods));
   if (!run) return std::nullopt;
   double begin = 0;
+  bool is_pressed = false;
   for (const OrbitEvent& event : run->events) {
     const double end = event.phase / turn;
-    const bool is_contact = event.kind == Event::Kind::separation;
+    const bool is_contact = event.kind == Event::Kind::separation || is_pressed;
     if (end - begin >= shortest && !is_contact) return (begin + end) / 2;
     begin = (event.phase + event.rest) / turn;
+    if (!event.is_of_wall()) is_pressed = presses(event.kind);
   }
   const auto last = static_cast<double>(periods);
   return begin < last ? std::optional((begin + last) / 2) : std::nullopt;
@@ -99,6 +101,10 @@ Orbit soft_start(const point::Problem& given, const point::Problem& problem, con
 
 /// Throws StartError if branches can't be followed under the dry friction of a scene.
 void require_friction_to_follow(const point::Problem& problem) {
+  if (has_friction(problem.friction) && has_loose_mass(problem.loose))
+    throw StartError(
+        "branches of motion under dry friction are followed without a loose mass alone; sweep the parameter with "
+        "follow instead, or leave out friction or loose_mass");
   if (has_friction(problem.friction) && has_soft_stop(problem.stops))
     throw StartError(
         "branches of motion under dry friction are followed between rigid stops alone, as their equations have no "
@@ -246,7 +252,7 @@ double speed_scale(const FollowedScene& scene, const Orbit& orbit) {
   const double nu = oscillator.frequency;
   const double response = nu * steady_response(oscillator).amplitude;
   const double free = std::isfinite(response) ? response : std::abs(oscillator.forcing);
-  const double speed = impact_speed(orbit);
+  const double speed = std::max(impact_speed(orbit), wall_impact_speed(orbit));
   return speed > 1e-2 * free ? speed : std::max(free, 1e-12);
 }
 
@@ -314,9 +320,10 @@ std::optional<Orbit> event_run(const point::Problem& problem, std::size_t period
   const double nu = problem.oscillator.frequency;
   for (const motion::Event& event : recorder.events) {
     const bool rests = event.kind == Event::Kind::rest || event.kind == Event::Kind::chatter;
-    orbit.events.push_back({event.side, nu * event.time, event.velocity(),
-                            rests ? Event::Kind::impact : event.kind,  // one without speed
-                            nu * event.length, halts(event.kind) ? event.place - middle : 0.0});
+    OrbitEvent& kept = orbit.events.emplace_back(event.side, nu * event.time, event.velocity(), event.kind,
+                                                 nu * event.length, halts(event.kind) ? event.place - middle : 0.0);
+    if (rests) kept.kind = Event::Kind::impact;  // one without speed
+    if (event.of_wall) kept.kind = Event::Kind::strike, kept.other = {event.main.place - middle, event.main.before};
   }
   if (orbit.size() == 0)
     for (const Side side : {Side::lower, Side::upper}) {

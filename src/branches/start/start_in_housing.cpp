@@ -1,21 +1,21 @@
 #include "branches/start/start_in_housing.hpp"
 
+#include <algorithm>
+#include <string>
+
 #include "attractors/periodic_motion.hpp"
 #include "branches/equations/housing_flight.hpp"
 
 namespace clatter::branches {
 namespace {
 
-/// Makes each impact of a run a strike, with the main mass before it, which moves alone from one to the next.
-void add_main_mass(const FollowedScene& scene, const attractors::SectionState& from, double phase, Orbit& orbit) {
+/// Adds the loose mass to each event of the main mass, on the way from a strike, at which both are known.
+void add_loose_mass(const FollowedScene& scene, Orbit& orbit) {
   with_arcs_of_main(scene, [&]<Effects E>() {
     const HousingFlights<double, E> flights{numbers_of<double>(scene)};
-    const double nu = scene.oscillator.frequency, middle = flights.parameters().middle();
-    double place = from.x - middle, v = from.v;
-    for (OrbitEvent& impact : orbit.events) {
-      const motion::Motion<double> m = flights.main_from(phase, place, v).at((impact.phase - phase) / nu);
-      impact.kind = Event::Kind::strike, impact.main = {m.x - middle, m.v};
-      phase = impact.phase, place = impact.main.place, v = flights.rule().main_after(m.v, impact.before);
+    for (std::size_t i = 0; i + 1 < orbit.size(); ++i) {
+      const auto end = flights.end(flight_of_both(orbit, i));
+      if (OrbitEvent& event = orbit.events[i + 1]; !event.is_of_wall()) event.other = {end[2], end[3]};
     }
   });
 }
@@ -41,18 +41,26 @@ Orbit start_in_housing(const FollowedScene& scene, const point::Problem& problem
   const attractors::SectionState& from = motion->cycle[0];
   auto orbit = event_run(attractors::started(problem, from, near.phase), motion->cycle.size());
   if (!orbit) throw StartError("the run from the start fails");
-  if (orbit->size() == 0)
+  const auto strike = std::ranges::find_if(orbit->events, &OrbitEvent::is_of_wall);
+  if (strike == orbit->events.end())
     throw StartError(
         "the loose mass meets no wall from the start on: then it stays wherever it is, and no branch of such motion is "
         "followed; set loose_x0 and loose_v0 so that it strikes, or shake harder");
-  for (OrbitEvent& impact : orbit->events) {
-    if (impact.before == 0)
+  const auto is_of_main = [](const OrbitEvent& event) { return !event.is_of_wall(); };
+  if (problem.oscillator.stiffness == 0 && std::ranges::none_of(orbit->events, is_of_main))
+    throw StartError(
+        "without a spring, a main mass that meets no stop has no place of its own, and no branch of such motion is "
+        "followed; begin where it meets one");
+  for (OrbitEvent& event : orbit->events) {
+    if (event.before == 0 && is_impact(event.kind))
       throw StartError(
-          "a wall presses the loose mass in the motion at the start, and no branch of such motion is followed; begin "
-          "where it only strikes, or sweep the parameter with follow instead");
-    impact.phase += near.phase;
+          std::string(event.is_of_wall() ? "a wall presses the loose mass in" : "the main mass rests on a stop in") +
+          " the motion at the start, and no branch of such motion is followed; begin where it only strikes, or sweep "
+          "the parameter with follow instead");
+    event.phase += near.phase;
   }
-  add_main_mass(scene, from, near.phase, *orbit);
+  *orbit = orbit->from_event(static_cast<std::size_t>(strike - orbit->events.begin()));
+  add_loose_mass(scene, *orbit);
   return orbit->half_if_same(1e-6, symmetric);
 }
 

@@ -30,8 +30,8 @@ Vector first_less_second(const Orbit& orbit, const Orbit& half, double speed_uni
   for (std::size_t i = half.size(); i < orbit.size(); ++i) {
     const OrbitEvent one = half.event(i), &other = orbit.events[i];
     off.insert(off.end(), {one.phase - other.phase, (one.before - other.before) / speed_unit,
-                           (one.place - other.place) / speed_unit, (one.main.place - other.main.place) / speed_unit,
-                           (one.main.before - other.main.before) / speed_unit});
+                           (one.place - other.place) / speed_unit, (one.other.place - other.other.place) / speed_unit,
+                           (one.other.before - other.other.before) / speed_unit});
   }
   return off;
 }
@@ -46,8 +46,8 @@ Orbit middle_of(Orbit half, const Orbit& orbit) {
     event.phase += (other.phase - one.phase) / 2;
     event.before += sign * (other.before - one.before) / 2;
     event.place += sign * (other.place - one.place) / 2;
-    event.main.place += sign * (other.main.place - one.main.place) / 2;
-    event.main.before += sign * (other.main.before - one.main.before) / 2;
+    event.other.place += sign * (other.other.place - one.other.place) / 2;
+    event.other.before += sign * (other.other.before - one.other.before) / 2;
   }
   return half;
 }

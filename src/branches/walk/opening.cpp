@@ -41,6 +41,7 @@ Orbit with_short(const FollowedScene& scene, const Orbit& orbit, std::size_t gra
   }
   begin.phase = middle.phase - p.oscillator.frequency * before, begin.before = middle.before - a * before;
   end.phase = begin.phase + advance, end.before = begin.before + a * time;
+  begin.other.place -= middle.other.before * before, end.other.place += middle.other.before * (time - before);
   Orbit out = orbit;
   out.events[graze] = end;
   return out.with(begin, graze);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "branches/equations/housing_flight.hpp"
 #include "branches/equations/links.hpp"
 #include "branches/walk/flight_end.hpp"
-#include "branches/walk/housing_violation.hpp"
 #include "branches/walk/slip_violation.hpp"
 #include "motion/contact.hpp"
 
@@ -55,7 +55,7 @@ std::optional<Violation> separates(const motion::SoftStop<double>& stop, const m
   const auto crossing = motion::first_crossing(arc, std::array{force}, path.length);
   if (crossing.resolved && crossing.margin != 0) return std::nullopt;
   const motion::Motion<double>& m = crossing.motion;
-  if (path.arrives != Event::Kind::impact && crossing.resolved &&
+  if (path.to == stop.side && path.arrives != Event::Kind::impact && crossing.resolved &&
       is_at_end(crossing.elapsed, path.length, m.offset, force.slope(m), arc.constants().nu))
     return std::nullopt;
   return passes_through(arc, path, force, crossing.elapsed, stop.side, Event::Kind::renewal);
@@ -78,7 +78,8 @@ std::optional<Violation> free_within(const SceneNumbers<double>& p, const motion
     if (!(rest.length > 0)) return std::nullopt;
     return cut_short(p, motion::Arc(arc.constants(), leaving, stop.position), rest);
   }
-  if ((renews || path.ends_in_graze) && crossing.resolved &&
+  const bool is_struck = path.arrives == Event::Kind::strike && crossing.margin == 2;
+  if ((renews || path.ends_in_graze || is_struck) && crossing.resolved &&
       (crossing.margin == 2 ||
        (crossing.margin == 1 && is_at_end(crossing.elapsed, path.length, m.offset, pull.slope(m), nu))))
     return std::nullopt;
@@ -107,7 +108,7 @@ Violation told_apart(const SceneNumbers<double>& p, const Orbit& orbit, const Vi
     const std::size_t i = separates ? (found.event + orbit.size() - 1) % orbit.size() : found.event;
     return vanishes(i) ? Violation{Violation::Kind::ends_early, i, {}} : found;
   }
-  if (found.turning.kind == Event::Kind::impact) return found;
+  if (is_impact(found.turning.kind)) return found;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const Flight<double> flight = detail::flight_of<double>(orbit, i);
     const double distance = std::remainder(found.turning.phase - flight.begin, orbit.advance());
@@ -134,16 +135,123 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
       });
 }
 
+/// A flight between two events of an orbit, and how the main mass moves on it.
+struct Leg {
+  Flight<double> flight;
+  Path path;
+  bool is_pressed;    ///< it is in contact with a soft stop
+  bool leaves_graze;  ///< it begins with one from outside
+  bool is_beside_graze;
+};
+/// `beside`: the stop from which it counts after a strike.
+Leg leg_of(const Orbit& orbit, std::size_t i, double nu, std::optional<std::size_t> grazing, Side beside = Side::none) {
+  Leg leg{detail::flight_of<double>(orbit, i), {}, orbit.pressed_after(i) != Side::none, false, false};
+  Flight<double>& flight = leg.flight;
+  const bool is_struck = flight.leaves == Event::Kind::strike;
+  if (is_struck) flight.from = beside;
+  if (flight.arrives == Event::Kind::strike) flight.to = Side::none;
+  const bool without_speed = flight.leaves == Event::Kind::impact || std::abs(flight.coordinate) <= 1e-9;
+  leg.is_beside_graze = i == grazing && !is_struck;
+  leg.leaves_graze = leg.is_beside_graze && !leg.is_pressed && without_speed;
+  if (leg.leaves_graze) flight.coordinate = 0;
+  leg.path = {i,         (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / nu,
+              flight.to, flight.arrives,         false};
+  leg.path.ends_in_graze = leg.path.next == grazing && flight.arrives == Event::Kind::separation && !leg.is_pressed;
+  return leg;
+}
+
+/// The main mass meets no stop before the end of a flight, and a soft stop's force has its sign.
+template <Effects E>
+std::optional<Violation> leg_violation(const SceneNumbers<double>& p, const motion::Arc<double, E>& arc,
+                                       const Leg& leg) {
+  // next to its double zero in a graze, the sign of a soft stop's force is that of rounding
+  constexpr double clear_of_rounding = 1e-6;
+  const Side from = leg.flight.from;
+  if (leg.flight.leaves == Event::Kind::impact || leg.leaves_graze || from == Side::none)
+    return cut_short(p, arc, leg.path);
+  const motion::SoftStop<double> stop = p.soft_stop(from);
+  const auto flown = [&](const auto& on, const Path& path) {
+    if (leg.is_pressed) return separates(stop, on, path);
+    return stop.damping == 0 ? cut_short(p, on, path) : free_within(p, stop, on, path);
+  };
+  if (!leg.is_beside_graze) return flown(arc, leg.path);
+  Path path = leg.path;
+  const double clear = std::min(clear_of_rounding / arc.constants().rate, path.length);
+  path.begin += p.oscillator.frequency * clear, path.length -= clear;
+  return flown(motion::Arc(arc.constants(), arc.at(clear), stop.position), path);
+}
+
+/// The loose mass meets no wall before the end of a flight, and the main mass flies as it would alone.
+template <Effects E>
+std::optional<Violation> leg_violation(const SceneNumbers<double>& p, const motion::RelativeArc<double, E>& arc,
+                                       const Leg& leg, Side wall) {
+  const Stops walls{.lower = p.loose.lower, .upper = p.loose.upper};
+  const double nu = arc.constants().nu, length = leg.path.length;
+  const auto beyond = [&](Violation found) {
+    const motion::Motion<double> m = arc.at((found.turning.phase - leg.path.begin) / nu), main = arc.main_at(m);
+    found.turning.other = found.turning.is_of_wall() ? OrbitEvent::Other{main.x - p.middle(), main.v}
+                                                     : OrbitEvent::Other{m.x - p.middle_of_walls(), m.v};
+    return found;
+  };
+  const motion::Crossing<double> contact = motion::next_contact(arc, walls, length);
+  const bool is_end =
+      contact.side == wall && is_at_end(contact.elapsed, length, contact.motion.x, contact.motion.v, nu);
+  if (contact.side != Side::none && !is_end) {
+    const Margin gap{0.0, -static_cast<double>(sign_of(contact.side)), 0.0};
+    const double turn = leg.path.begin + nu * turning_time(arc, gap, contact.elapsed);
+    return beyond({Violation::Kind::passes_through, leg.path.number, {contact.side, turn, 0.0, Event::Kind::strike}});
+  }
+  const auto found = leg_violation(p, arc.main(), leg);
+  return found && found->kind == Violation::Kind::passes_through ? std::optional(beyond(*found)) : found;
+}
+
+/// The first flight of an orbit that is none: `on_leg(i)` looks at one.
+template <class OnLeg>
+std::optional<Violation> first_of_legs(const SceneNumbers<double>& p, const Orbit& orbit,
+                                       std::optional<std::size_t> grazing, const OnLeg& on_leg) {
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const std::optional<Violation> found = on_leg(i);
+    if (found && !(found->kind == Violation::Kind::pulls && found->event == grazing))
+      return told_apart(p, orbit, *found);
+  }
+  return std::nullopt;
+}
+
+std::optional<Violation> violation_of_one(const FollowedScene& scene, const Orbit& orbit,
+                                          std::optional<std::size_t> grazing) {
+  return with_arcs(scene, [&]<Effects E>() -> std::optional<Violation> {
+    const Flights<double, E> flights{numbers_of<double>(scene)};
+    const SceneNumbers<double>& p = flights.parameters();
+    if (orbit.size() == 0) return response_violation(flights, orbit);
+    return first_of_legs(p, orbit, grazing, [&](std::size_t i) {
+      const Leg leg = leg_of(orbit, i, p.oscillator.frequency, grazing);
+      return flights.with_arc(leg.flight, [&](const auto& arc) { return leg_violation(p, arc, leg); });
+    });
+  });
+}
+/// With a loose mass.
+std::optional<Violation> violation_of_both(const FollowedScene& scene, const Orbit& orbit,
+                                           std::optional<std::size_t> grazing) {
+  return with_arcs_of_main(scene, [&]<Effects E>() -> std::optional<Violation> {
+    const HousingFlights<double, E> flights{numbers_of<double>(scene)};
+    const SceneNumbers<double>& p = flights.parameters();
+    return first_of_legs(p, orbit, grazing, [&](std::size_t i) {
+      FlightOfBoth<double> flight = flight_of_both(orbit, i);
+      const Leg leg = leg_of(orbit, i, p.oscillator.frequency, grazing, flights.beside(flight));
+      if (leg.leaves_graze || (i == grazing && flight.leaves == Event::Kind::strike)) flight.coordinate = 0;
+      const Side wall = flight.arrives == Event::Kind::strike ? flight.to : Side::none;
+      return flights.with_arc(flight, [&](const auto& arc) { return leg_violation(p, arc, leg, wall); });
+    });
+  });
+}
+
 }  // namespace
 
 std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
-  if (has_loose_mass(scene.loose)) return housing_violation(scene, orbit, grazing);
   if (has_friction(scene.friction) || orbit.halts()) {
     const std::vector<Violation> found = slip_violations(scene, orbit, grazing);
     return found.empty() ? std::nullopt : std::optional(found.front());
   }
-  // next to its double zero in a graze, the sign of a soft stop's force is that of rounding
-  constexpr double clear_of_rounding = 1e-6;
   const SceneNumbers<double> of_scene = numbers_of<double>(scene);
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (const Flight<double> flight = detail::flight_of<double>(orbit, i);
@@ -154,35 +262,8 @@ std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbi
       const Violation pulls{Violation::Kind::pulls, i, {}};
       return orbit.events[i].kind == Event::Kind::separation ? told_apart(of_scene, orbit, pulls) : pulls;
     }
-  return with_arcs(scene, [&]<Effects E>() -> std::optional<Violation> {
-    const Flights<double, E> flights{numbers_of<double>(scene)};
-    const SceneNumbers<double>& p = flights.parameters();
-    if (orbit.size() == 0) return response_violation(flights, orbit);
-    for (std::size_t i = 0; i < orbit.size(); ++i) {
-      Flight<double> flight = detail::flight_of<double>(orbit, i);
-      const bool without_speed = flight.leaves == Event::Kind::impact || std::abs(flight.coordinate) <= 1e-9;
-      const bool leaves_graze = i == grazing && !presses(flight.leaves) && without_speed;
-      if (leaves_graze) flight.coordinate = 0;
-      Path path{i,         (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.oscillator.frequency,
-                flight.to, flight.arrives};
-      path.ends_in_graze = path.next == grazing && flight.arrives == Event::Kind::separation && !presses(flight.leaves);
-      auto found = flights.with_arc(flight, [&](const auto& arc) {
-        if (flight.leaves == Event::Kind::impact || leaves_graze) return cut_short(p, arc, path);
-        const motion::SoftStop<double> stop = p.soft_stop(flight.from);
-        const auto flown = [&](const auto& from) {
-          if (presses(flight.leaves)) return separates(stop, from, path);
-          return stop.damping == 0 ? cut_short(p, from, path) : free_within(p, stop, from, path);
-        };
-        if (i != grazing) return flown(arc);
-        const double clear = std::min(clear_of_rounding / arc.constants().rate, path.length);
-        path.begin += p.oscillator.frequency * clear, path.length -= clear;
-        return flown(motion::Arc(arc.constants(), arc.at(clear), stop.position));
-      });
-      if (found && !(found->kind == Violation::Kind::pulls && found->event == grazing))
-        return told_apart(p, orbit, *found);
-    }
-    return std::nullopt;
-  });
+  const bool has_both = has_loose_mass(scene.loose);
+  return has_both ? violation_of_both(scene, orbit, grazing) : violation_of_one(scene, orbit, grazing);
 }
 
 }  // namespace clatter::branches
