@@ -7,6 +7,7 @@
 
 #include "branches/halt_end.hpp"
 #include "branches/resting_branch.hpp"
+#include "branches/simultaneous_end.hpp"
 #include "branches/start/start.hpp"
 #include "branches/walk/halves.hpp"
 #include "branches/walk/special_points.hpp"
@@ -244,6 +245,7 @@ class Follower {
                     const std::optional<std::size_t>& from) {
     std::optional<Narrowed> between = narrowed(equations, walk, step);
     if (!between) return end_without_step(equations, record_.point(equations, walk.here()), walk.here());
+    if (between->violated.kind == Violation::Kind::at_once) return end_at_once(equations, walk, *between, from);
     const auto end = nearest_end(any_equations(), equations, *between, std::max(step, 1e-2 * settings_.largest_step),
                                  settings_.tolerance);
     double length = between->last_good.arclength - walk.here().arclength;
@@ -288,11 +290,24 @@ class Follower {
       waiting_.push_back(*std::move(each));
   }
 
-  /// No step leads on: under dry friction, as a slip vanishes.
+  /// The branch ends within a step, as two events fall together, one of each mass: which of them comes first changes
+  /// the motion beyond.
+  void end_at_once(const OrbitEquations& equations, const Walk& walk, const Narrowed& between,
+                   const std::optional<std::size_t>& from) {
+    const bool born = special_between(equations, walk, between.last_good.arclength - walk.here().arclength, from);
+    if (born) return record_.end(record_.point(equations, between.last_good), "born");
+    end_at_once(record_.point(equations, point_at_once(equations, walk, between).value_or(between.last_good)));
+  }
+  void end_at_once(const BranchPoint& last) {
+    branches::end_at_once(any_equations(), last, settings_.tolerance, record_, waiting_, generation_);
+  }
+
+  /// No step leads on: under dry friction, as a slip vanishes; or as two events are about to change places.
   void end_without_step(const OrbitEquations& equations, const BranchPoint& last, const CurvePoint& here) {
     const Narrowed at{here, here, {}};
     const auto end = nearest_end(any_equations(), equations, at, settings_.largest_step, settings_.tolerance);
-    if (!ends_in_halt(equations, here, end)) record_.fail(last, no_step);
+    if (ends_in_halt(equations, here, end)) return;
+    has_events_at_once(last.orbit) ? end_at_once(last) : record_.fail(last, no_step);
   }
   /// Ends a branch after a good point as friction begins to hold the mass somewhere, or no longer does, if it does.
   bool ends_in_halt(const OrbitEquations& equations, const CurvePoint& last, const std::optional<FrictionEnd>& end) {

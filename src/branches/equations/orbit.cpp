@@ -12,13 +12,16 @@ using observables::ImpactWord;
 Side mirror_image(Side side) { return static_cast<Side>(-sign_of(side)); }
 
 OrbitEvent mirrored(const OrbitEvent& event) {
-  return {mirror_image(event.side),
-          event.phase,
-          -event.before,
-          event.kind,
-          event.rest,
-          -event.place,
-          {-event.other.place, -event.other.before}};
+  OrbitEvent image{mirror_image(event.side),
+                   event.phase,
+                   -event.before,
+                   event.kind,
+                   event.rest,
+                   -event.place,
+                   {-event.other.place, -event.other.before},
+                   event.contact};
+  if (event.contact) image.contact = mirror_image(*event.contact);
+  return image;
 }
 
 OrbitEvent later(OrbitEvent event, double advance) {
@@ -79,9 +82,9 @@ bool Orbit::changes_nothing(std::size_t i) const {
 Side Orbit::pressed_after(std::size_t i) const {
   for (std::size_t back = 0; back < size(); ++back) {
     const OrbitEvent last = event(i + size() - back);
-    if (last.is_of_wall()) continue;
-    if (!presses(last.kind)) return Side::none;
-    return mirrored ? branches::mirror_image(last.side) : last.side;
+    if (last.is_of_wall() && !last.contact) continue;
+    const Side side = last.contact ? *last.contact : presses(last.kind) ? last.side : Side::none;
+    return mirrored ? branches::mirror_image(side) : side;
   }
   return pressed;
 }
@@ -121,7 +124,7 @@ Orbit Orbit::half_if_same(double tolerance, bool symmetric_scene) const {
     fastest = std::max(fastest, std::abs(event.other.before));
   }
   const auto same = [&](const OrbitEvent& a, const OrbitEvent& b) {
-    return a.side == b.side && a.kind == b.kind && std::abs(a.phase - b.phase) <= tolerance &&
+    return a.side == b.side && a.kind == b.kind && a.contact == b.contact && std::abs(a.phase - b.phase) <= tolerance &&
            std::abs(a.before - b.before) <= tolerance * std::max(std::abs(a.before), std::abs(b.before)) &&
            std::abs(a.place - b.place) <= tolerance * farthest &&
            std::abs(a.other.place - b.other.place) <= tolerance * farthest &&

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct OrbitEvent {
     double place = 0.0, before = 0.0;
   };
   Other other{};
+  /// The soft stop, or none, that the main mass is in contact with from a strike on, if that changes it: it takes away
+  /// the force of a damper, or brings it.
+  std::optional<Side> contact{};
 
   /// The unknown beside the phase: the velocity before the event, or the place of a halt.
   [[nodiscard]] double coordinate() const { return halts(kind) ? place : before; }

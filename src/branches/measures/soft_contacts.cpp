@@ -25,9 +25,10 @@ void add_contact(const A& arc, const motion::SoftStop<Along>& stop, const Along&
   sum.re += length * part.re, sum.im += length * part.im;
 }
 
-/// Energy of the spring of a soft stop at which the force is zero: the depth is relaxation times velocity.
-Along stored(const motion::SoftStop<Along>& stop, const Along& velocity) {
-  const Along depth = stop.relaxation() * velocity;
+/// Energy of the spring of a soft stop at an event: where the force is zero, the depth is relaxation times velocity.
+Along stored(const SceneNumbers<Along>& p, const motion::SoftStop<Along>& stop, const MovingEvent& event) {
+  const bool is_struck = event.kind == Event::Kind::strike;
+  const Along depth = is_struck ? p.middle() + event.other_place - stop.position : stop.relaxation() * event.coordinate;
   return stop.stiffness * depth * depth / 2;
 }
 
@@ -45,9 +46,12 @@ void add_contacts(const Moving& moving, const WithArc& with_arc, SoftContacts& s
       add_contact(arc, stop, from.phase, (end - from.phase) / moving.p.oscillator.frequency, sum);
     });
     // a stop that the mass outruns relaxes as far as it is touched again
-    if (to.kind == Event::Kind::separation) sum.loss += stored(stop, to.coordinate);
-    if (from.kind == Event::Kind::renewal && moving.events[(i + count - 1) % count].pressed == Side::none)
-      sum.loss -= stored(stop, from.coordinate);
+    const bool leaves =
+        to.kind == Event::Kind::separation || (to.kind == Event::Kind::strike && to.pressed == Side::none);
+    const bool comes_back = from.kind == Event::Kind::renewal || from.kind == Event::Kind::strike;
+    if (leaves) sum.loss += stored(moving.p, stop, to);
+    if (comes_back && moving.events[(i + count - 1) % count].pressed == Side::none)
+      sum.loss -= stored(moving.p, stop, from);
   }
 }
 

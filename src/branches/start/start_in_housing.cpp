@@ -9,6 +9,17 @@
 namespace clatter::branches {
 namespace {
 
+/// A strike that takes away the force of a damped stop, or brings it, is one event.
+void merge_changes_of_contact(std::vector<OrbitEvent>& events) {
+  for (std::size_t i = 0; i + 1 < events.size(); ++i) {
+    const OrbitEvent& next = events[i + 1];
+    const bool changes = next.kind == Event::Kind::separation || next.kind == Event::Kind::renewal;
+    if (!events[i].is_of_wall() || !changes || next.phase != events[i].phase) continue;
+    events[i].contact = presses(next.kind) ? next.side : Side::none;
+    events.erase(events.begin() + static_cast<std::ptrdiff_t>(i + 1));
+  }
+}
+
 /// Adds the loose mass to each event of the main mass, on the way from a strike, at which both are known.
 void add_loose_mass(const FollowedScene& scene, Orbit& orbit) {
   with_arcs_of_main(scene, [&]<Effects E>() {
@@ -41,6 +52,7 @@ Orbit start_in_housing(const FollowedScene& scene, const point::Problem& problem
   const attractors::SectionState& from = motion->cycle[0];
   auto orbit = event_run(attractors::started(problem, from, near.phase), motion->cycle.size());
   if (!orbit) throw StartError("the run from the start fails");
+  merge_changes_of_contact(orbit->events);
   const auto strike = std::ranges::find_if(orbit->events, &OrbitEvent::is_of_wall);
   if (strike == orbit->events.end())
     throw StartError(

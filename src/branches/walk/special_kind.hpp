@@ -24,10 +24,11 @@ enum class SpecialKind : std::uint8_t {
   grazing_sliding,    ///< likewise: a slip whose velocity just comes to 0 gains a stick, or the other way round
   switching_sliding,  ///< likewise: a reversal and the slip to a stick vanish, or appear before it
   neimark_sacker,     ///< of a loose mass: a pair of multipliers leaves the unit circle
-  motion_ceases       ///< under dry friction: it comes up to the force, and beyond holds the mass for good
+  motion_ceases,      ///< under dry friction: it comes up to the force, and beyond holds the mass for good
+  simultaneous        ///< of a loose mass: an event of each of the two masses at the same instant
 };
 [[nodiscard]] constexpr std::string_view name_of(SpecialKind kind) {
-  constexpr std::array<std::string_view, 16> names{"fold",
+  constexpr std::array<std::string_view, 17> names{"fold",
                                                    "flip",
                                                    "symmetry breaking",
                                                    "graze",
@@ -42,7 +43,8 @@ enum class SpecialKind : std::uint8_t {
                                                    "grazing-sliding",
                                                    "switching-sliding",
                                                    "Neimark-Sacker",
-                                                   "motion ceases"};
+                                                   "motion ceases",
+                                                   "simultaneous events"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -188,7 +188,9 @@ std::optional<Violation> leg_violation(const SceneNumbers<double>& p, const moti
   const Stops walls{.lower = p.loose.lower, .upper = p.loose.upper};
   const double nu = arc.constants().nu, length = leg.path.length;
   const auto beyond = [&](Violation found) {
-    const motion::Motion<double> m = arc.at((found.turning.phase - leg.path.begin) / nu), main = arc.main_at(m);
+    const double turn = (found.turning.phase - leg.path.begin) / nu;
+    if (turn > length) found.kind = Violation::Kind::at_once;
+    const motion::Motion<double> m = arc.at(turn), main = arc.main_at(m);
     found.turning.other = found.turning.is_of_wall() ? OrbitEvent::Other{main.x - p.middle(), main.v}
                                                      : OrbitEvent::Other{m.x - p.middle_of_walls(), m.v};
     return found;
@@ -200,6 +202,14 @@ std::optional<Violation> leg_violation(const SceneNumbers<double>& p, const moti
     const Margin gap{0.0, -static_cast<double>(sign_of(contact.side)), 0.0};
     const double turn = leg.path.begin + nu * turning_time(arc, gap, contact.elapsed);
     return beyond({Violation::Kind::passes_through, leg.path.number, {contact.side, turn, 0.0, Event::Kind::strike}});
+  }
+  if (leg.flight.leaves == Event::Kind::strike && leg.flight.from != Side::none) {
+    // a strike leaves a soft stop's force its sign, or is one that changes the contact
+    const motion::Motion<double>& m = arc.main().start();
+    const motion::SoftStop<double> stop = p.soft_stop(leg.flight.from);
+    if ((stop.force(stop.into(m.offset), stop.into(m.v)) > 0) != leg.is_pressed)
+      return Violation{
+          Violation::Kind::at_once, leg.path.number, {leg.flight.from, leg.path.begin, 0.0, Event::Kind::separation}};
   }
   const auto found = leg_violation(p, arc.main(), leg);
   return found && found->kind == Violation::Kind::passes_through ? std::optional(beyond(*found)) : found;

@@ -12,6 +12,7 @@ struct Violation {
   enum class Kind : std::uint8_t {
     passes_through,  ///< a flight meets a stop before its end; or a soft stop's force rises or falls to zero before it
     pulls,           ///< an impact's velocity points away from its stop; an event within a soft stop lies outside
+    at_once,         ///< a flight meets a stop or a wall just as it ends with an event of the other mass
     ends_early,      ///< a contact with a soft stop, or its interruption, ends before it begins
     halts,           ///< the velocity falls to 0 before a flight's end
     runs_on,         ///< the mass isn't slowed down as it comes to a stick
@@ -25,7 +26,7 @@ struct Violation {
   std::size_t event = 0;  ///< its number: that of the flight's beginning, or of the event that is wrong itself
   OrbitEvent turning{};   ///< passes_through: the turning point beyond the stop, as an impact without speed; or the
                           ///< extremum of the soft stop's force, as an event that changes nothing; halts: that of the
-                          ///< velocity, as a stick
+                          ///< velocity, as a stick; at_once: where the flight would turn
 };
 
 /// The first violation of an orbit, by the proof of first contact on each of its flights, and by that of the first sign
