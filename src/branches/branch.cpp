@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 
+#include "branches/equations/housing_flight.hpp"
 #include "branches/halt_end.hpp"
 #include "branches/resting_branch.hpp"
 #include "branches/simultaneous_end.hpp"
@@ -202,7 +203,9 @@ class Follower {
   /// A special point on the branch; what is born there waits.
   void note(const OrbitEquations& equations, SpecialKind kind, const CurvePoint& point) {
     CurvePoint exact = point;
-    const bool gives_birth = kind == SpecialKind::flip || kind == SpecialKind::symmetry_breaking;
+    // motion that meets no stop may lose a symmetry which the scene doesn't have
+    const bool of_free_motion = kind == SpecialKind::symmetry_breaking && !equations.shape().mirrored;
+    const bool gives_birth = (kind == SpecialKind::flip || kind == SpecialKind::symmetry_breaking) && !of_free_motion;
     if (kind == SpecialKind::fold || gives_birth) {
       const int multiplier = kind == SpecialKind::fold ? 1 : -1;
       const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::multiplier, multiplier}});
@@ -210,34 +213,11 @@ class Follower {
     }
     const BranchPoint at = record_.point(equations, exact);
     const auto noted = record_.note(kind, at);
+    if (of_free_motion) return record_.leave_out(noted.number);
     if (!noted.is_new)  // a branch that passes where another one was born, and waits there, is that one
       std::erase_if(waiting_, [&](const Waiting& one) { return one.special == noted.number && one.passes; });
     else if (gives_birth && !leaves_out(kind, noted.number))
       waiting_.push_back(daughter_at(at, noted.number, generation_ + 1));
-  }
-
-  /// Without restitution, a flight that begins with a turn into its stop doesn't begin: the mass is pressed, and rests.
-  /// Returns whether this is how the branch ends. The motion that rests waits then.
-  bool ends_in_rest(const OrbitEquations& equations, const Touch& touch, double step) {
-    const std::size_t event = touch.event - 1;
-    const Side side = equations.shape().events[event].side;
-    const OrbitEvent &turn = touch.orbit.events[touch.event], &begins = touch.orbit.events[event];
-    const bool at_once = turn.side == side && turn.phase - begins.phase < 1e-2;
-    if (!at_once || begins.kind != Event::Kind::impact) return false;
-    const SceneNumbers<double> p = numbers_of<double>(equations.scene_at(touch.beyond.at));
-    if (law_at(p, begins.kind, side).share_at_rest() != 0) return false;
-    const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, event}});
-    const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
-    if (!exact || std::abs(exact->back() - touch.beyond.at.back()) > near(step)) return false;
-    const BranchPoint last = record_.point(there, {*exact, {}, touch.last_good.arclength});
-    record_.add(last);
-    const auto [special, is_new] = record_.note(SpecialKind::chatter_limit, last);
-    record_.end(last, "chatter limit");
-    if (!is_new)
-      no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
-    else
-      resting().wait_beyond(last, side, (touch.beyond.at.back() - exact->back()) * width_, special, generation_);
-    return true;
   }
 
   /// The branch ends within a step, at a graze. If Newton's method doesn't find that from here, shorter steps go on.
@@ -256,7 +236,7 @@ class Follower {
     if (ends_in_halt(equations, between->last_good, end)) return;
     if (end) between->violated = end->graze;
     const Touch touch = touch_of(equations, *between);
-    if (touch.appears && !touch.halts && equations.shape().size() > 0 && ends_in_rest(equations, touch, step)) return;
+    if (resting().ends_in_rest(any_equations(), equations, touch, near(step), generation_)) return;
     std::optional<ExactGraze> exact = end ? std::optional(end->exact) : std::nullopt;
     if (!exact && !touch.halts)
       exact = exact_graze(any_equations(), equations.scene_at(touch.beyond.at), touch.graze(), 1e-3 * speed_unit_,
@@ -299,7 +279,7 @@ class Follower {
     end_at_once(record_.point(equations, point_at_once(equations, walk, between).value_or(between.last_good)));
   }
   void end_at_once(const BranchPoint& last) {
-    branches::end_at_once(any_equations(), last, settings_.tolerance, record_, waiting_, generation_);
+    branches::end_at_once(any_equations(), last, symmetric_, settings_.tolerance, record_, waiting_, generation_);
   }
 
   /// No step leads on: under dry friction, as a slip vanishes; or as two events are about to change places.
@@ -334,7 +314,7 @@ class Follower {
   }
 
   void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special, int came = 0) {
-    if (has_loose_mass(scene.loose) && !orbit.meets_walls()) return;  // the loose mass may be anywhere
+    if (is_anywhere(scene, orbit) || (has_loose_mass(scene.loose) && !orbit.meets_walls())) return;  // so may that
     if (orbit.size() == 0 && orbit.pressed == Side::none) {
       if (scene.oscillator.stiffness == 0) return;  // it has no place of its own
       orbit = Orbit{};

@@ -263,6 +263,29 @@ bool RestingBranch::waits_beyond(const BranchPoint& last, Side stop, std::int64_
   return resting.has_value();
 }
 
+bool RestingBranch::ends_in_rest(const Equations& builder, const OrbitEquations& walked, const Touch& touch,
+                                 double within, std::int64_t generation) {
+  if (!touch.appears || touch.halts || touch.event == 0) return false;
+  const std::size_t event = touch.event - 1;
+  const OrbitEvent &turn = touch.orbit.events[touch.event], &begins = touch.orbit.events[event];
+  const bool at_once = turn.side == begins.side && turn.phase - begins.phase < 1e-2;
+  if (!at_once || begins.kind != Event::Kind::impact || turn.is_of_wall()) return false;
+  const SceneNumbers<double> p = numbers_of<double>(walked.scene_at(touch.beyond.at));
+  if (p.law(begins.side).share_at_rest() != 0) return false;
+  const OrbitEquations there = builder(walked.shape(), {{Condition::Kind::release, 1, event}});
+  const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
+  if (!exact || std::abs(exact->back() - touch.beyond.at.back()) > within) return false;
+  const BranchPoint last = record_.point(there, {*exact, {}, touch.last_good.arclength});
+  record_.add(last);
+  const auto [special, is_new] = record_.note(SpecialKind::chatter_limit, last);
+  record_.end(last, "chatter limit");
+  if (!is_new)
+    no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
+  else
+    wait_beyond(last, begins.side, (touch.beyond.at.back() - exact->back()) * width_, special, generation);
+  return true;
+}
+
 void RestingBranch::wait_beyond(const BranchPoint& last, Side stop, double ahead, std::size_t special,
                                 std::int64_t generation) {
   if (has_loose_mass(problem_.loose)) return;  // a main mass at rest isn't followed

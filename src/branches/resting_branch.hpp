@@ -6,6 +6,7 @@
 
 #include "branches/measures/moving.hpp"
 #include "branches/waiting.hpp"
+#include "branches/walk/touch.hpp"
 
 namespace clatter::branches {
 
@@ -22,6 +23,11 @@ class RestingBranch {
   /// If a branch that was born at a graze not long ago ends in another one, they accumulate where a chatter ends in
   /// rest just at its release. Returns whether this is so; the motion that rests, not far beyond, waits then.
   bool waits_beyond(const BranchPoint& last, Side stop, std::int64_t generation);
+
+  /// Without restitution, a flight that begins with a turn into its stop doesn't begin: the mass is pressed, and rests.
+  /// Returns whether this is how a branch ends. The motion that rests waits then.
+  bool ends_in_rest(const Equations& builder, const OrbitEquations& walked, const Touch& touch, double within,
+                    std::int64_t generation);
 
   /// Where a branch ends because a chatter begins to complete, finds the motion that rests on that stop beyond, so far
   /// ahead or a little further, and lets it wait to be followed.

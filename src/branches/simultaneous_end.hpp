@@ -17,7 +17,7 @@ namespace clatter::branches {
                                                       const Narrowed& between);
 
 /// Ends a branch there. If motion goes on with the two events in the other order, as it may at a soft stop, that waits.
-void end_at_once(const Equations& builder, const BranchPoint& last, double tolerance, Record& record,
-                 std::deque<Waiting>& waiting, std::int64_t generation);
+void end_at_once(const Equations& builder, const BranchPoint& last, bool symmetric_scene, double tolerance,
+                 Record& record, std::deque<Waiting>& waiting, std::int64_t generation);
 
 }  // namespace clatter::branches

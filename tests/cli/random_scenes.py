@@ -271,6 +271,28 @@ def carrying_scenes(count, seed):
     return scenes
 
 
+def bumping_scenes(count, seed):
+    """Those with stops of the main mass, rigid and soft, held by a spring or not."""
+    draw = random.Random(seed)
+    scenes = []
+    for scene in carrying_scenes(count, seed):
+        scene.stiffness = draw.choice([scene.stiffness, scene.stiffness, 0.0, -draw.uniform(0.1, 0.5)])
+        reach = logarithmic(draw, 0.1, 1) / max(0.1, math.hypot(scene.stiffness - scene.nu**2, 2 * scene.h * scene.nu))
+        scene.stop_lower, scene.stop_upper = -reach, draw.choice([reach, 2 * reach])
+        if scene.stiffness > 0 and draw.random() < 0.3:
+            scene.stop_lower = -INF
+        for side in ("lower", "upper"):
+            kappa, zeta = draw.uniform(2, 50) * max(1, scene.nu**2), draw.choice([0.0, draw.uniform(0.02, 0.7)])
+            if not math.isfinite(getattr(scene, f"stop_{side}")):
+                continue
+            soft = draw.random() < 0.4
+            changes = {"stop_stiffness": kappa, "stop_damping": zeta} if soft else {"R": draw.uniform(0.3, 0.95)}
+            scene = scene.changed(**{f"{key}_{side}": value for key, value in changes.items()})
+        low = max(-1, scene.stop_lower)
+        scenes.append(scene.changed(x0=draw.uniform(low, min(1, scene.stop_upper))))
+    return scenes
+
+
 def weak_scenes():
     """A mass that a load presses on a stop, all else from nothing to as strong as the load; one stop and two."""
     strengths = (0.0, 1e-12, 1e-8, 1e-4, 1e-2, 1.0)

@@ -89,6 +89,8 @@ class OrbitEquations {
  private:
   /// The flights of two masses, and the equation of one of their multipliers.
   void add_flights_in_housing(const FollowedScene& scene, const Orbit& orbit, Linearised& out) const;
+  /// Motion that may be anywhere comes back to where it begins by its other equations: it begins where the shape does.
+  void stay_in_place(const Orbit& orbit, Linearised& out) const;
   void add_multiplier_in_housing(const FollowedScene& scene, const Orbit& orbit, const Condition& condition,
                                  std::size_t row, Linearised& out) const;
   void add_multiplier(const FollowedScene& scene, const Orbit& all, const Condition& condition, std::size_t row,

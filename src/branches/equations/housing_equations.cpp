@@ -1,6 +1,7 @@
 #include <cstddef>
 
 #include "branches/equations/equations.hpp"
+#include "branches/equations/housing_flight.hpp"
 #include "branches/equations/housing_multipliers.hpp"
 
 namespace clatter::branches {
@@ -20,6 +21,15 @@ void OrbitEquations::add_flights_in_housing(const FollowedScene& scene, const Or
         out.slope(begin + row, first_axis() + k) += links[i].by_axis[row][k] * axes_[k].unit;
     }
   }
+  if (is_anywhere(scene, orbit)) stay_in_place(orbit, out);
+}
+
+void OrbitEquations::stay_in_place(const Orbit& orbit, Linearised& out) const {
+  constexpr std::size_t place = 2;
+  const std::size_t row = phase_of(orbit.size() - 1) + place;
+  for (std::size_t unknown = 0; unknown < unknowns(); ++unknown) out.slope(row, unknown) = 0;
+  out.residual[row] = orbit.events[0].other.place - shape_.events[0].other.place;
+  out.slope(row, phase_of(0) + place) = speed_unit_;
 }
 
 void OrbitEquations::add_multiplier_in_housing(const FollowedScene& scene, const Orbit& orbit,

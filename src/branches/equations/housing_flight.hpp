@@ -18,6 +18,11 @@ decltype(auto) with_arcs_of_main(const Scene& scene, Function&& function) {
   return with_smooth_effects<true>(oscillator_in_frame(scene), std::forward<Function>(function));
 }
 
+/// Whether nothing holds a main mass somewhere: no spring, and no stop that it meets.
+[[nodiscard]] inline bool is_anywhere(const Scene& scene, const Orbit& orbit) {
+  return has_loose_mass(scene.loose) && scene.oscillator.stiffness == 0 && !orbit.meets_stops();
+}
+
 /// A flight of two masses from an event of one of them, with that one's numbers as `OrbitEvent` has them, to another.
 template <class Number>
 struct FlightOfBoth {

@@ -79,6 +79,8 @@ bool Orbit::changes_nothing(std::size_t i) const {
   return is_impact(kind) || presses(kind) == presses(before);
 }
 
+bool Orbit::meets_stops() const { return !std::ranges::all_of(events, &OrbitEvent::is_of_wall); }
+
 Side Orbit::pressed_after(std::size_t i) const {
   for (std::size_t back = 0; back < size(); ++back) {
     const OrbitEvent last = event(i + size() - back);

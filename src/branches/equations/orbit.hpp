@@ -82,6 +82,7 @@ struct Orbit {
   [[nodiscard]] bool meets_soft_stop() const;
   [[nodiscard]] bool halts() const;  ///< by dry friction, away from the stops
   [[nodiscard]] bool meets_walls() const;
+  [[nodiscard]] bool meets_stops() const;  ///< any event is one of the main mass
   /// The soft stop that the mass is in contact with just after event i = 0, 1, ..., size() - 1.
   [[nodiscard]] Side pressed_after(std::size_t i) const;
   /// Whether the motion is a solution without the event i, which grazes, too.

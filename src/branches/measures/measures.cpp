@@ -69,8 +69,11 @@ SectionState standing(const FollowedScene& scene, const OrbitEvent& event) {
 Multipliers multipliers_in_housing(const FollowedScene& scene, const Orbit& orbit) {
   Multipliers found;
   std::size_t i = 0;
-  for (std::complex<double> multiplier : housing_multipliers(scene, orbit)) {
-    found.stable = found.stable && std::abs(multiplier) < 1;
+  const std::array<std::complex<double>, 4> all = housing_multipliers(scene, orbit);
+  const auto of_place = std::ranges::min_element(all, {}, [](const auto& m) { return std::abs(m - 1.0); });
+  for (std::complex<double> multiplier : all) {
+    const bool is_neutral = is_anywhere(scene, orbit) && &all[i] == of_place;
+    found.stable = found.stable && (is_neutral || std::abs(multiplier) < 1);
     if (orbit.mirrored) multiplier *= multiplier;
     found.re[i] = multiplier.real(), found.im[i] = multiplier.imag();
     if (i > 0 && found.im[i] > 0 && found.im[i] == -found.im[i - 1]) std::swap(found.im[i - 1], found.im[i]);

@@ -1,6 +1,7 @@
 #include "branches/start/start_in_housing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "attractors/periodic_motion.hpp"
@@ -58,11 +59,12 @@ Orbit start_in_housing(const FollowedScene& scene, const point::Problem& problem
     throw StartError(
         "the loose mass meets no wall from the start on: then it stays wherever it is, and no branch of such motion is "
         "followed; set loose_x0 and loose_v0 so that it strikes, or shake harder");
-  const auto is_of_main = [](const OrbitEvent& event) { return !event.is_of_wall(); };
-  if (problem.oscillator.stiffness == 0 && std::ranges::none_of(orbit->events, is_of_main))
+  const bool has_stops = std::isfinite(scene.stops.lower) || std::isfinite(scene.stops.upper);
+  if (is_anywhere(scene, *orbit) && has_stops)
     throw StartError(
-        "without a spring, a main mass that meets no stop has no place of its own, and no branch of such motion is "
-        "followed; begin where it meets one");
+        "without a spring, a main mass that meets no stop may be anywhere between them, and no branch of such motion "
+        "is "
+        "followed; begin where it meets one, or leave the stops out");
   for (OrbitEvent& event : orbit->events) {
     if (event.before == 0 && is_impact(event.kind))
       throw StartError(

@@ -9,6 +9,17 @@
 
 namespace clatter::branches {
 
+namespace {
+
+/// Whether a motion is its own mirror image, but not kept as half of it: its stops, of which it meets none, are no
+/// images of each other.
+bool is_image_of_itself(const Orbit& orbit) {
+  constexpr double same = 1e-6;
+  return !orbit.mirrored && !orbit.meets_stops() && orbit.half_if_same(same, true).mirrored;
+}
+
+}  // namespace
+
 std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, const Walk& walk, double step,
                                               const StepEnds& ends, const observables::Observe& observe) {
   const bool is_first = ends.begins_in_special;
@@ -43,6 +54,10 @@ std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, c
     look(
         SpecialKind::neimark_sacker, [&](const CurvePoint& p) { return characteristic(p).distance_to_unit_product(); },
         false, begin);
+    const bool has_fold = std::ranges::count(found, SpecialKind::fold, &FoundPoint::kind) > 0;
+    if (!has_fold && is_image_of_itself(equations.orbit_at(walk.here().at)))
+      look(
+          SpecialKind::symmetry_breaking, [&](const CurvePoint& p) { return characteristic(p).at(1); }, false, begin);
     std::erase_if(found, [&](const FoundPoint& f) {  // two real multipliers with such a product are no bifurcation
       return f.kind == SpecialKind::neimark_sacker && !characteristic(f.point).would_be_complex();
     });

@@ -207,7 +207,8 @@ std::optional<Violation> leg_violation(const SceneNumbers<double>& p, const moti
     // a strike leaves a soft stop's force its sign, or is one that changes the contact
     const motion::Motion<double>& m = arc.main().start();
     const motion::SoftStop<double> stop = p.soft_stop(leg.flight.from);
-    if ((stop.force(stop.into(m.offset), stop.into(m.v)) > 0) != leg.is_pressed)
+    const double depth = stop.into(m.offset);
+    if ((depth > 0 && stop.force(depth, stop.into(m.v)) > 0) != leg.is_pressed)
       return Violation{
           Violation::Kind::at_once, leg.path.number, {leg.flight.from, leg.path.begin, 0.0, Event::Kind::separation}};
   }
