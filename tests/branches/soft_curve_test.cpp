@@ -106,7 +106,7 @@ double least_rate(const BranchPoint& point) {
   const SceneNumbers<double> p = numbers_of<double>(point.scene);
   double least = std::numeric_limits<double>::infinity();
   for (const OrbitEvent& impact : point.orbit.events) {
-    const auto& [side, phase, before, kind, rest, place, other] = impact;
+    const auto& [side, phase, before, kind, rest, place, other, contact] = impact;
     least = std::min(least, std::abs(before));
     if (kind != Event::Kind::separation && kind != Event::Kind::renewal) continue;
     const double relaxation = p.soft_stop(side).relaxation(), x = p.position(side) - relaxation * before;

@@ -99,7 +99,7 @@ class BranchLooseMass(BranchRuns):
             (along("xs", 0.5, 0.9), 2, ("loose_mass", "loose_gap")),
             (along("friction", 0.1, 0.2), 2, ("loose_mass", "friction")),
             (along("loose_mass", 0, 0.1), 2, ("a.toml:11:9", "no loose mass", "above 0")),
-            (along("stiffness", -1, 2), 2, ("no spring", "above 0")),
+            (along("stiffness", -1, 2), 2, ("no spring", "one side of 0")),
             (along("loose_gap", 1, 2, bare), 2, ("without 'loose_mass'",)),
             (along("loose_gap", 1, 2, uneven), 2, ("loose_lower or loose_upper",)),
             (along("loose_lower", -2, 2, uneven), 2, ("upper wall",)),

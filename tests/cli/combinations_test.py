@@ -9,7 +9,15 @@ import unittest
 
 from combinations import Campaign, report
 from followed_branches import BranchCampaign
-from random_scenes import carrying_scenes, followed_scenes, rough_scenes, rubbed_scenes, slipping_scenes, weak_scenes
+from random_scenes import (
+    bumping_scenes,
+    carrying_scenes,
+    followed_scenes,
+    rough_scenes,
+    rubbed_scenes,
+    slipping_scenes,
+    weak_scenes,
+)
 from sweep_relations import SweepCampaign
 
 CLATTER = os.environ["CLATTER"]
@@ -46,6 +54,11 @@ class Combinations(unittest.TestCase):
 
     def test_points_of_branches_with_a_loose_mass_are_motions(self):
         campaign = BranchCampaign(CLATTER, carrying_scenes(max(30, COUNT // 10), SEED))
+        self.assertEqual(report(campaign.failures), "")
+        self.assertGreater(campaign.points, 100)
+
+    def test_points_of_branches_with_a_loose_mass_beside_stops_are_motions(self):
+        campaign = BranchCampaign(CLATTER, bumping_scenes(max(60, COUNT // 5), SEED))
         self.assertEqual(report(campaign.failures), "")
         self.assertGreater(campaign.points, 100)
 

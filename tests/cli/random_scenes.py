@@ -277,7 +277,9 @@ def bumping_scenes(count, seed):
     scenes = []
     for scene in carrying_scenes(count, seed):
         scene.stiffness = draw.choice([scene.stiffness, scene.stiffness, 0.0, -draw.uniform(0.1, 0.5)])
-        reach = logarithmic(draw, 0.1, 1) / max(0.1, math.hypot(scene.stiffness - scene.nu**2, 2 * scene.h * scene.nu))
+        reach = logarithmic(draw, 0.1, 1) / max(
+            0.1, math.hypot(scene.stiffness - scene.nu**2, 2 * scene.h * scene.nu)
+        )
         scene.stop_lower, scene.stop_upper = -reach, draw.choice([reach, 2 * reach])
         if scene.stiffness > 0 and draw.random() < 0.3:
             scene.stop_lower = -INF

@@ -34,6 +34,7 @@ MARKS = {  # special point: its symbol, and whether it is filled
     "switching-sliding": ("s", False),
     "Neimark-Sacker": ("8", True),
     "motion ceases": ("H", True),
+    "simultaneous events": ("+", True),
 }
 CURVES = {  # special point: name and dashes of its curve in the plane of two parameters
     "fold": ("folds", "-"),
