@@ -8,6 +8,8 @@
 
 #include "branches/measures/measures.hpp"
 #include "branches/record.hpp"
+#include "branches/simultaneous_end.hpp"
+#include "branches/walk/resonant_graze.hpp"
 #include "branches/walk/touch.hpp"
 
 namespace clatter::branches {
@@ -48,6 +50,7 @@ void make_once(SpecialPoint& graze) {
 
 Condition condition_of(const SpecialPoint& special) {
   if (special.kind == SpecialKind::graze) return special.condition;
+  if (special.kind == SpecialKind::neimark_sacker) return {Condition::Kind::unit_product};
   return {Condition::Kind::multiplier, special.kind == SpecialKind::fold ? 1 : -1};
 }
 
@@ -186,8 +189,12 @@ class CurveFollower {
   /// The curve ends where a turning point touches a stop, too, or its own slowest impact vanishes: on a rigid stop a
   /// resonant graze, in which curves of multipliers +1 and -1 meet that of the graze.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step) {
-    const auto touch = touch_within(equations, walk, step);
-    if (!touch) return record_.fail(record_.point(equations, walk.here()), no_step);
+    const auto between = narrowed(equations, walk, step);
+    if (!between) return record_.fail(record_.point(equations, walk.here()), no_step);
+    if (between->violated.kind == Violation::Kind::at_once)
+      return end_at_once(
+          record_.point(equations, point_at_once(equations, walk, *between).value_or(between->last_good)));
+    const std::optional<Touch> touch = touch_of(equations, *between);
     special_between(equations, walk, touch->last_good.arclength - walk.here().arclength);
     if (touch->vanishes && ends_without_contact(equations, touch->last_good, touch->beyond.at, *touch->vanishes))
       return;
@@ -216,6 +223,12 @@ class CurveFollower {
     record_.add(last), record_.end(last, std::string(name_of(kind)));
   }
 
+  /// The curve ends as an event of each of the two masses falls on the same instant.
+  void end_at_once(const BranchPoint& last) {
+    record_.note(SpecialKind::simultaneous, last);
+    record_.add(last), record_.end(last, std::string(name_of(SpecialKind::simultaneous)));
+  }
+
   /// Whether the curve ends because a contact with a soft stop, or an interruption of one, vanishes there.
   bool ends_without_contact(const OrbitEquations& equations, const CurvePoint& last_good, const Vector& near,
                             std::size_t contact) {
@@ -236,6 +249,7 @@ class CurveFollower {
     const auto contact = shortest_contact(equations.orbit_at(last_good.at));
     if (contact && !equations.grazing() && ends_without_contact(equations, last_good, last_good.at, *contact)) return;
     const BranchPoint last = record_.point(equations, last_good);
+    if (has_events_at_once(last.orbit)) return end_at_once(last);
     if (failure == no_graze) record_.add(last);
     record_.fail(last, failure);
   }
@@ -288,7 +302,9 @@ class CurveFollower {
         record_.note(SpecialKind::cusp, record_.point(equations, *turned));
       return;
     }
-    if (!is_impact(equations.shape().events[*equations.grazing()].kind)) return;  // no square root there
+    const bool is_of_two_numbers = !has_loose_mass(problem_.loose);  // as the conditions for resonant ones are
+    const bool has_root = is_impact(equations.shape().events[*equations.grazing()].kind);
+    if (!has_root || !is_of_two_numbers) return;
     for (const int periods : {1, 2, 3, 4}) {
       if (periods > 1 && equations.shape().mirrored) break;
       const auto resonant = zero_of([&](const CurvePoint& p) { return resonance(equations, p.at, periods); });
@@ -297,31 +313,6 @@ class CurveFollower {
       at.orbit = grazing_once_in(at.orbit, *equations.grazing(), periods);
       record_.note(SpecialKind::resonant_graze, at);
     }
-  }
-
-  /// Zero in a resonant graze: the nth iterate of the motion's map has no term in the square root of the distance from
-  /// the graze (Simpson & Ghosh 2026).
-  static double resonance(const OrbitEquations& equations, const Vector& at, int n) {
-    const FollowedScene scene = equations.scene_at(at);
-    const Orbit orbit = equations.orbit_at(at);
-    if (n == 1) {
-      const ImpactMap map = impact_map(scene, orbit);
-      return map.numerator[0][0] + map.numerator[1][1];
-    }
-    // the element of M^n from velocity to displacement: sin(n phi) / sin(phi) times that of M, cos(phi) = tr M / 2
-    // over the root of the determinant
-    const ImpactMap map = impact_map(scene, orbit.without(*equations.grazing()));
-    const double square = map.trace() * map.trace(), factor = n == 2 ? 0 : n == 3 ? 1 : 2;
-    return n == 2 ? map.trace() : square - factor * map.determinant;
-  }
-
-  /// The motion over n periods, with its graze in the first of them alone.
-  static Orbit grazing_once_in(const Orbit& orbit, std::size_t graze, int n) {
-    if (n == 1) return orbit;
-    Orbit many = orbit.repeated(n);
-    for (std::size_t i = many.size(); i-- > orbit.size();)
-      if (i % orbit.size() == graze) many = many.without(i);
-    return many;
   }
 
   StartProblem problem_;

@@ -12,7 +12,8 @@
 namespace clatter::branches {
 
 /// The special points that can be followed in two parameters.
-inline constexpr std::array<std::string_view, 4> curve_names{"fold", "flip", "symmetry breaking", "graze"};
+inline constexpr std::array<std::string_view, 5> curve_names{"fold", "flip", "symmetry breaking", "graze",
+                                                             "Neimark-Sacker"};
 
 /// Kinds of births: what begins at a special point of a branch, and isn't that branch going on.
 enum class Birth : std::uint8_t {

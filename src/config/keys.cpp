@@ -53,15 +53,14 @@ Key key_of(Parameter parameter, bool is_si) {
   return key;
 }
 
-/// The keys along which a motion can be followed; a second one can't be of a loose mass.
-std::vector<std::string_view> keys_to_follow(bool with_loose) {
+/// The keys along which a motion can be followed.
+std::vector<std::string_view> keys_to_follow() {
   std::vector<std::string_view> keys;
   for (const Parameter parameter : all_parameters)
-    if (parameter.role() != Role::start && !parameter.row().is_with_unit && (with_loose || !parameter.is_loose()))
-      keys.push_back(parameter.key());
+    if (parameter.role() != Role::start && !parameter.row().is_with_unit) keys.push_back(parameter.key());
   return keys;
 }
-const std::vector<std::string_view> followed_names = keys_to_follow(true), across_names = keys_to_follow(false);
+const std::vector<std::string_view> followed_names = keys_to_follow();
 
 constexpr std::array keys_before_observe{
     with("xs = [1.0, 2.0]\nR = [0.7, 0.5]\n",
@@ -124,8 +123,8 @@ const std::array keys_after_observe{
                     "parameter, by its key in [scene] or [machine], along which `clatter branch` follows a motion"})),
     with("along = \"nu\"\n",
          Key{"branch", "range", interval, "", "0.8, 1.5", "range of that parameter; branches end at its limits"}),
-    with(a_kind, one_of(across_names, Key{"branch", "across", choice, "", "xs",
-                                          "second parameter: special points are followed in the plane of the two"})),
+    with(a_kind, one_of(followed_names, Key{"branch", "across", choice, "", "xs",
+                                            "second parameter: special points are followed in the plane of the two"})),
     with(a_curve, Key{"branch", "across_range", interval, "", "0.5, 4",
                       "range of the second parameter; without it, all values that are permitted"}),
     with(a_second, one_of(branches::curve_names,

@@ -18,10 +18,9 @@ constexpr Parameter loose_mass("loose_mass");
   fail(location, what + " conflicts with 'loose_mass'; " + way_out);
 }
 
-/// The key along which a branch is followed.
-std::optional<Parameter> followed(const Settings& settings) {
-  const Setting* const along = settings.find("branch", "along");
-  return along != nullptr ? Parameter::of(settings.text("branch", "along")) : std::nullopt;
+/// The parameter along which a branch is followed, or the second one of a curve.
+std::optional<Parameter> followed(const Settings& settings, const std::string& key) {
+  return settings.find("branch", key) != nullptr ? Parameter::of(settings.text("branch", key)) : std::nullopt;
 }
 
 /// Keys of a loose mass need the mass.
@@ -31,9 +30,10 @@ void check_completeness(const Settings& settings) {
     if (given == nullptr || settings.given(loose_mass) != nullptr) continue;
     fail(given->key_location, in_quotes(given->key->name) + " without 'loose_mass'; give that, or leave it out");
   }
-  if (const auto along = followed(settings); along && along->is_loose() && settings.given(loose_mass) == nullptr)
-    fail(settings.find("branch", "along")->location,
-         "along = " + in_quotes(along->key()) + " without 'loose_mass'; give that, or follow another key");
+  for (const std::string key : {"along", "across"})
+    if (const auto of = followed(settings, key); of && of->is_loose() && settings.given(loose_mass) == nullptr)
+      fail(settings.find("branch", key)->location,
+           key + " = " + in_quotes(of->key()) + " without 'loose_mass'; give that, or follow another key");
 }
 
 /// There is a wall at every point.
@@ -107,36 +107,42 @@ void check_force(const Settings& settings, const AxisGroups& groups) {
     refuse(section->key_location, "a section without a force", "give " + key + ", or observe a trajectory");
 }
 
-/// Refuses a branch along what a scene with a loose mass doesn't have, or under friction.
-void check_followed(const Settings& settings) {
-  const std::optional<Parameter> along = followed(settings);
+/// Refuses a parameter that a scene with a loose mass doesn't have, or can't be followed along.
+void check_followed(const Settings& settings, const std::string& key, const Setting* range) {
+  if (!followed(settings, key)) return;
+  const Parameter parameter = *followed(settings, key);
+  const Setting& place = *settings.find("branch", key);
+  const std::string asked = key + " = " + in_quotes(parameter.key());
+  if (parameter.role() == Role::friction || parameter == "stop_amplitude")
+    refuse(place.location, asked,
+           "it is followed without a loose mass alone; run a sweep of it, or follow another parameter");
+  if (conflicts_with_loose_mass(parameter) && place_of_stop(settings) == nullptr)
+    refuse(place.location, asked,
+           "the main mass has no stop; follow loose_gap, loose_lower, loose_upper or loose_R, or give it stops");
+  const bool is_stiffness = parameter == "stiffness";
+  if (!(parameter == loose_mass || is_stiffness) || range == nullptr) return;
+  const auto [low, high] = settings.interval("branch", range->key->name);
+  if (!(low > 0) && !(is_stiffness && high < 0))
+    fail(range->location, "range of " + in_quotes(parameter.key()) + " reaches 0, where there is no " +
+                              (is_stiffness ? "spring, from whose equilibrium places count; keep it on one side of 0"
+                                            : "loose mass; begin it above 0"));
+}
+/// Refuses a branch, or a curve, that isn't followed beside a loose mass.
+void check_branch(const Settings& settings) {
+  const std::optional<Parameter> along = followed(settings, "along");
   if (!along) return;
   if (const Own friction = friction_of(settings); friction.place != nullptr)
     fail(*friction.place, friction.name +
                               " conflicts with [branch] beside 'loose_mass'; run a sweep, and give it follow = " +
                               in_quotes(along->key()));
-  const Setting &place = *settings.find("branch", "along"), *const range = settings.find("branch", "range");
-  if (along->role() == Role::friction || *along == "stop_amplitude")
-    refuse(place.location, "along = " + in_quotes(along->key()),
-           "it is followed without a loose mass alone; run a sweep of it, or follow another parameter");
-  if (conflicts_with_loose_mass(*along) && place_of_stop(settings) == nullptr)
-    refuse(place.location, "along = " + in_quotes(along->key()),
-           "the main mass has no stop; follow loose_gap, loose_lower, loose_upper or loose_R, or give it stops");
-  const bool is_stiffness = *along == "stiffness";
-  if (!(*along == loose_mass || is_stiffness) || range == nullptr) return;
-  const auto [low, high] = settings.interval("branch", "range");
-  if (!(low > 0) && !(is_stiffness && high < 0))
-    fail(range->location, "range of " + in_quotes(along->key()) + " reaches 0, where there is no " +
-                              (is_stiffness ? "spring, from whose equilibrium places count; keep it on one side of 0"
-                                            : "loose mass; begin it above 0"));
+  check_followed(settings, "along", settings.find("branch", "range"));
+  check_followed(settings, "across", settings.find("branch", "across_range"));
 }
 
 /// Keys that don't know a loose mass.
 void check_uses(const Settings& settings) {
-  if (const Setting* const across = settings.find("branch", "across"); across != nullptr)
-    refuse(across->key_location, "'across'", "leave it and curve out, and follow branches at several values of it");
   const Own own = own_of(settings);
-  check_followed(settings);
+  check_branch(settings);
   const auto refuse_own = [](const Own& of_main, const std::string& beside, const std::string& way_out) {
     if (of_main.place != nullptr)
       fail(*of_main.place, of_main.name + " conflicts with " + beside + " beside 'loose_mass'; " + way_out);

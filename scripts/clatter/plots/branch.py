@@ -41,6 +41,7 @@ CURVES = {  # special point: name and dashes of its curve in the plane of two pa
     "flip": ("flips", (0, (5, 1.5))),
     "symmetry breaking": ("losses of symmetry", (0, (5, 1.5, 1, 1.5))),
     "graze": ("grazes", (0, (1.2, 1.2))),
+    "Neimark-Sacker": ("Neimark–Sacker points", (0, (6, 2, 1, 2, 1, 2))),
 }
 BEHIND = "#b8b8b8"
 BACKBONE = (("xs", None), ("R", 1.0), ("load", 0.0), ("stiffness", 1.0))  # keys of the scene, with their defaults

@@ -183,7 +183,11 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
   else if (!add_flights(*this, scene, orbit, out))
     return std::nullopt;
   std::size_t row = first_axis();
-  for (const Condition& condition : conditions_) add_condition(scene, orbit, condition, row++, out);
+  for (const Condition& condition : conditions_)
+    if (condition.kind == Condition::Kind::unit_product)
+      add_unit_product(z, row++, out);
+    else
+      add_condition(scene, orbit, condition, row++, out);
   return out;
 }
 

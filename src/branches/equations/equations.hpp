@@ -15,14 +15,15 @@ namespace clatter::branches {
 /// An equation that singles out a special point on a branch, or a curve of them if two parameters vary.
 struct Condition {
   enum class Kind : std::uint8_t {
-    multiplier,  ///< a multiplier of the orbit as it is kept is `multiplier`, +1 or -1
-    graze,       ///< event number `event`, an impact or one on a soft stop, has no speed
-    force,       ///< a soft stop's force, zero at event number `event`, doesn't change there
-    duration,    ///< the flight from event number `event` on lasts `duration`
-    level,       ///< at event number `event`, a halt, the other forces are at the static level of friction
-    kinetic,     ///< there they are at the kinetic level
-    tangency,    ///< at the place of that halt they only just come to the static level
-    on_stop,     ///< the place of that halt is that of a stop
+    multiplier,    ///< a multiplier of the orbit as it is kept is `multiplier`, +1 or -1
+    unit_product,  ///< of a loose mass: two multipliers, a complex pair, have the product 1
+    graze,         ///< event number `event`, an impact or one on a soft stop, has no speed
+    force,         ///< a soft stop's force, zero at event number `event`, doesn't change there
+    duration,      ///< the flight from event number `event` on lasts `duration`
+    level,         ///< at event number `event`, a halt, the other forces are at the static level of friction
+    kinetic,       ///< there they are at the kinetic level
+    tangency,      ///< at the place of that halt they only just come to the static level
+    on_stop,       ///< the place of that halt is that of a stop
     release  ///< the force on the mass is zero at the impact, event number `event`, after which it may rest if R = 0
   };
   Kind kind = Kind::multiplier;
@@ -93,6 +94,7 @@ class OrbitEquations {
   void stay_in_place(const Orbit& orbit, Linearised& out) const;
   void add_multiplier_in_housing(const FollowedScene& scene, const Orbit& orbit, const Condition& condition,
                                  std::size_t row, Linearised& out) const;
+  void add_unit_product(const Vector& unknowns, std::size_t row, Linearised& out) const;
   void add_multiplier(const FollowedScene& scene, const Orbit& all, const Condition& condition, std::size_t row,
                       Linearised& out) const;
   void add_condition(const FollowedScene& scene, const Orbit& orbit, const Condition& condition, std::size_t row,

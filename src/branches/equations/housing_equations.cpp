@@ -43,4 +43,21 @@ void OrbitEquations::add_multiplier_in_housing(const FollowedScene& scene, const
     out.slope(row, first_axis() + k) = of.slopes.by_axis[k] * axes_[k].unit;
 }
 
+// Its slope, by which Newton's method comes near, is one of differences: they lose half of the digits, its zero none.
+void OrbitEquations::add_unit_product(const Vector& z, std::size_t row, Linearised& out) const {
+  constexpr double step = 1e-6;
+  const auto at = [&](const Vector& unknowns) {
+    return housing_characteristic(scene_at(unknowns), orbit_at(unknowns)).distance_to_unit_product();
+  };
+  out.residual[row] = at(z);
+  Vector aside = z;
+  for (std::size_t unknown = 0; unknown < z.size(); ++unknown) {
+    aside[unknown] = z[unknown] + step;
+    const double above = at(aside);
+    aside[unknown] = z[unknown] - step;
+    out.slope(row, unknown) = (above - at(aside)) / (2 * step);
+    aside[unknown] = z[unknown];
+  }
+}
+
 }  // namespace clatter::branches
