@@ -10,7 +10,9 @@
 #include "motion/arc.hpp"
 #include "motion/event.hpp"
 #include "motion/polynomial_arc.hpp"
+#include "motion/relative_arc.hpp"
 #include "observables/energy/quadrature.hpp"
+#include "observables/harmonics/panel.hpp"
 #include "scene/displacement_bound.hpp"
 #include "scene/shaking.hpp"
 
@@ -56,6 +58,21 @@ class ExactHarmonics {
       const Complex ends =
           (last.v + slope * last.x) * turn(w * (begin + length)) - (first.v + slope * first.x) * turn(w * begin);
       x_[k] += (force(arc, w, length) * turn(w * begin) - ends) / z;
+    }
+  }
+  /// Of the place of a loose mass in its housing, whose way y less that of the main mass may be all of its digits.
+  template <Effects E>
+  void arc(const motion::RelativeArc<double, E>& arc, double begin, double length) {
+    if (!(begin > 0.0)) first_x_ = arc.start().x;
+    const double panels = std::max(1.0, std::ceil(length * arc.constants().rate / 4)), half = length / panels / 2;
+    evaluations_ += 20 * panels;
+    for (double panel = 0; panel < panels; ++panel) {
+      const double middle = (2 * panel + 1) * half;
+      Panel here(middle, half, [&](double s) { return arc.at(s).x; });
+      for (std::size_t k = 0; k < x_.size(); ++k) {
+        const double w = base_ * static_cast<double>(k);
+        x_[k] += here.integral(w) * turn(w * (begin + middle));
+      }
     }
   }
   /// Beside the flights, times at rest; a mass on which a loose one presses moves along an arc.
