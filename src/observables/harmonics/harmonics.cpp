@@ -58,8 +58,8 @@ std::vector<Column<Harmonics::Values>> Harmonics::columns(const Settings& settin
   add("v", "velocity", Quantity::velocity, &Values::v_spectrum);
   for (Column<Values>& column : all) column = in_observed_frame(std::move(column));
   if (settings.loose_harmonics) {
-    add("z", "the place of the loose mass in the housing", Quantity::length, &Values::z_spectrum);
-    add("w", "the velocity of the loose mass over the housing", Quantity::velocity, &Values::w_spectrum);
+    add("z", "the place in the housing", Quantity::length, &Values::z_spectrum);
+    add("w", "the velocity over the housing", Quantity::velocity, &Values::w_spectrum);
   }
   all.push_back(scalar("base_frequency", "frequency whose multiples the harmonics are", &Values::base_frequency,
                        Quantity::frequency));
