@@ -111,22 +111,24 @@ Harmonics::Values Harmonics::Observer::finish_exact(const ObservedSpan& span, do
 Harmonics::Values Harmonics::Observer::finish_samples(const ObservedSpan& span, double x, double v) {
   samples_->finish(x, v, span.total, span.periodic);
   if (span.frame) samples_->add(*span.frame);
-  const auto& [transform, workspace] = *span.fourier;
-  const auto spectra = [&](Spectrum& displacement, Spectrum& velocity) {
-    const std::size_t count = samples_->count();
-    const auto [of_x, of_v] = transform->transform(*workspace);
-    for (const auto& [spectrum, sums] : {std::pair{&displacement, of_x}, {&velocity, of_v}})
-      *spectrum = sampled_spectrum(count, span.base_turns, highest_,
-                                   [&](std::size_t, std::size_t i) { return sums[i] / static_cast<double>(count); });
+  const FourierScratch& fourier = *span.fourier;
+  const std::size_t count = samples_->count();
+  const auto spectrum = [&](std::span<const std::complex<double>> sums) {
+    return sampled_spectrum(count, span.base_turns, highest_,
+                            [&](std::size_t, std::size_t i) { return sums[i] / static_cast<double>(count); });
+  };
+  const auto transform = [&](Spectrum& displacement, Spectrum& velocity) {
+    const auto sums = fourier.transform->transform(*fourier.workspace);
+    displacement = spectrum(sums[0]), velocity = spectrum(sums[1]);
   };
   Values values{.base_frequency = span.base_frequency};
-  spectra(values.x_spectrum, values.v_spectrum);
+  transform(values.x_spectrum, values.v_spectrum);
   if (loose_samples_) {  // in the rows of x and v, whose sums have been read
     loose_samples_->finish(span.total, span.periodic);
-    const auto [z, w] = transform->samples(*workspace);
-    std::ranges::copy(loose_samples_->place(), z.begin());
-    std::ranges::copy(loose_samples_->velocity(), w.begin());
-    spectra(values.z_spectrum, values.w_spectrum);
+    const auto rows = fourier.transform->samples(*fourier.workspace);
+    std::ranges::copy(loose_samples_->place(), rows[0].begin());
+    std::ranges::copy(loose_samples_->velocity(), rows[1].begin());
+    transform(values.z_spectrum, values.w_spectrum);
   }
   return values;
 }
