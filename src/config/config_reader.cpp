@@ -102,8 +102,9 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   sweep.problem.observe.of_soft_stops =
       is_soft_somewhere(settings, Side::lower) || is_soft_somewhere(settings, Side::upper);
   auto& observed = sweep.problem.observe;
-  observed.loose_extrema = observed.loose_impacts = observed.loose_trajectory = observed.loose_section =
-      observed.loose_stability = observed.loose_attractor = observed.loose_sensitivity = has_loose_mass(settings);
+  observed.loose_extrema = observed.loose_harmonics = observed.loose_impacts = observed.loose_trajectory =
+      observed.loose_section = observed.loose_stability = observed.loose_attractor = observed.loose_sensitivity =
+          has_loose_mass(settings);
   if (has_loose_mass(settings) && has_main_events(settings)) {
     observed.loose_impacts = false;
     observed.wall_impacts = observed.wall_energy = observed.wall_log = observed.word_walls = true;

@@ -52,6 +52,8 @@ class PolynomialInHousing {
     m.offset = value_at(offset_, u), m.x = origin_ + m.offset, m.v = value_at(velocity_, u), m.a = load_ - m.a;
     return m;
   }
+  /// z alone.
+  [[nodiscard]] double displacement(double s) const { return origin_ + value_at(offset_, share(s)); }
   /// y' a time s after the start.
   [[nodiscard]] double velocity(double s) const {
     const double u = share(s);

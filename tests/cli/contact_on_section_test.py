@@ -217,6 +217,13 @@ class ContactOnSection(SectionRuns):
                     if abs(late) < 1e-13:  # it counts at the end of the period
                         self.assertAlmostEqual(last, 2 * math.pi, delta=1e-11)
 
+    def test_harmonics_of_the_velocity_are_those_of_the_displacement_from_any_section_on(self):
+        harmonics = 'harmonics = 3\nharmonics_method = "exact"\n'
+        for late in (0.0, 1e-15, -1e-15, 1e-13, -1e-13, 1e-12, -1e-12, 1e-10, -1e-10):
+            text = BETWEEN.format(phase=4.765596808014069 + late) + harmonics
+            with self.subTest(late=late), self.run_on("scalar", text) as file:
+                np.testing.assert_allclose(file["v_amplitude"][()], np.arange(4) * file["x_amplitude"][()], atol=1e-13)
+
     def test_a_certificate_of_another_word_is_not_reproduced(self):
         """Between these stops rounding decides which of two motions, mirror images but for them, a start ends in."""
         for arch in ARCHITECTURES:

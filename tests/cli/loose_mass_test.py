@@ -64,9 +64,9 @@ def symmetric(scene):
 
 
 class LooseMass(RunTest):
-    def observed(self, scene, time, observe, section="scene", sweep=None, name="out"):
+    def observed(self, scene, time, observe, section="scene", sweep=None, name="out", options=()):
         """The variables of an output, by name."""
-        with h5py.File(self.run_clatter(text_of(scene, time, observe, section, sweep), name)) as file:
+        with h5py.File(self.run_clatter(text_of(scene, time, observe, section, sweep), name, options=options)) as file:
             return {
                 key: value.asstr()[()] if h5py.check_string_dtype(value.dtype) else value[()]
                 for key, value in file.items()

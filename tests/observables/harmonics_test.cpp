@@ -5,6 +5,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <numbers>
 
+#include "observables/arc_of.hpp"
 #include "observables/contacts/impact_log_observer.hpp"
 #include "observables/runs.hpp"
 
@@ -93,6 +94,22 @@ TEST(Harmonics, quadrature_at_a_resonance_and_integration_by_parts_agree) {
   EXPECT_LT(std::abs(predicted - at(edge - step)), 1e-3);                           // is smooth there,
   const Complex below = at(edge - 1e-9), above = at(edge + 1e-9);
   EXPECT_LT(std::abs(below - above), 1e-9 * 37);  // and continues without a jump: |dX/dw| <= the length of the run
+}
+
+TEST(Harmonics, of_velocity_know_the_beginning_that_comes_later_by_rounding) {
+  // an impact at the very beginning is passed before anything is seen, so the first arc begins at 1e-15
+  constexpr Effects effects{.damping = Damping::light, .forcing = Forcing::regular};
+  const motion::ArcConstants<double, effects> constants({0.1, 1.0, 1.3, 0.0});
+  const auto arc = arc_of(constants, 0.4, -0.3);
+  const double length = 2.0;
+  const auto from = [&](double begin) {
+    ExactHarmonics harmonics(3, 1.3);
+    harmonics.arc(arc, begin, length);
+    harmonics.finish(arc.at(length).x, length);
+    return harmonics.velocity();
+  };
+  const std::vector<Complex> at_once = from(0.0), later = from(1e-15);
+  for (std::size_t k = 0; k <= 3; ++k) EXPECT_LT(std::abs(later[k] - at_once[k]), 1e-14) << k;
 }
 
 TEST(Harmonics, see_rests_too) {

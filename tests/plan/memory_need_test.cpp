@@ -104,9 +104,12 @@ TEST(Memory, of_samples_counts_for_each_thread) {
   sweep.problem.observe.harmonics = 3;
   sweep.problem.observe.harmonics_method = observables::HarmonicsMethod::fft;
   sweep.problem.observe.harmonics_samples = 1 << 20;
-  const double four = memory_need(sweep, std::nullopt, 4).memory, two = memory_need(sweep, std::nullopt, 2).memory;
-  // two rows of samples and the sums of each
-  EXPECT_NEAR(four - two, 2.0 * 4 * 8 * (1 << 20), 1e6);
+  for (const bool is_loose : {false, true}) {
+    sweep.problem.observe.loose_harmonics = is_loose;
+    const double four = memory_need(sweep, std::nullopt, 4).memory, two = memory_need(sweep, std::nullopt, 2).memory;
+    // two rows of samples and the sums of each, and of a loose mass two rows more
+    EXPECT_NEAR(four - two, 2.0 * (is_loose ? 6 : 4) * 8 * (1 << 20), 1e6) << is_loose;
+  }
 }
 
 TEST(Memory, of_followed_chains_counts_one_that_is_saved) {

@@ -30,6 +30,8 @@ MISSING = {
     "velocity_ratio": "no impact",
     "x_phase": "amplitude is negligible",
     "v_phase": "amplitude is negligible",
+    "z_phase": "amplitude is negligible",
+    "w_phase": "amplitude is negligible",
     "symmetric": "scene isn't symmetric",
     "period": "mass stands still",
     "eigenfrequency": "mass stands still",

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "motion/arc.hpp"
 #include "motion/event.hpp"
 #include "motion/polynomial_arc.hpp"
+#include "motion/relative_arc.hpp"
 #include "observables/energy/quadrature.hpp"
+#include "observables/harmonics/panel.hpp"
 #include "scene/displacement_bound.hpp"
 #include "scene/shaking.hpp"
 
@@ -31,7 +34,7 @@ class ExactHarmonics {
 
   template <motion::Polynomial A>
   void arc(const A& arc, double begin, double length) {
-    if (!(begin > 0.0)) first_x_ = arc.start().x;
+    if (begins(begin)) first_x_ = arc.start().x;
     const double rate = arc.constants().rate;
     if (length * (rate + base_ * static_cast<double>(x_.size() - 1)) < 1) return short_arc(arc, begin, length);
     for (std::size_t k = 0; k < x_.size(); ++k) {
@@ -44,7 +47,7 @@ class ExactHarmonics {
     const motion::Motion<double>& first = arc.start();
     const motion::Motion<double> last = arc.at(length);
     ++evaluations_;
-    if (!(begin > 0.0)) first_x_ = first.x;
+    if (begins(begin)) first_x_ = first.x;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k), h = arc.constants().h;
       const Complex z = impedance(h, w, arc.constants().k);
@@ -58,10 +61,26 @@ class ExactHarmonics {
       x_[k] += (force(arc, w, length) * turn(w * begin) - ends) / z;
     }
   }
+  /// Of the place of a loose mass in its housing: from its values, which are right to their own rounding, whatever the
+  /// ways of the two masses are.
+  template <Effects E>
+  void arc(const motion::RelativeArc<double, E>& arc, double begin, double length) {
+    if (begins(begin)) first_x_ = arc.start().x;
+    const double panels = std::max(1.0, std::ceil(length * arc.constants().rate / 4)), half = length / panels / 2;
+    evaluations_ += 20 * panels;
+    for (double panel = 0; panel < panels; ++panel) {
+      const double middle = (2 * panel + 1) * half;
+      Panel here(middle, half, [&](double s) { return arc.at(s).x; });
+      for (std::size_t k = 0; k < x_.size(); ++k) {
+        const double w = base_ * static_cast<double>(k);
+        x_[k] += here.integral(w) * turn(w * (begin + middle));
+      }
+    }
+  }
   /// Beside the flights, times at rest; a mass on which a loose one presses moves along an arc.
   void event(const motion::Event& event) {
     if (!event.lasts() || event.has_arc) return;
-    if (!(event.time > 0.0)) first_x_ = event.place;
+    if (begins(event.time)) first_x_ = event.place;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k);
       x_[k] += event.place * turn(w * event.time) * wave(-w, event.length);
@@ -121,6 +140,9 @@ class ExactHarmonics {
   [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
  private:
+  /// Whether what is seen at an instant begins the observed time. Where an impact falls on that, the first arc begins
+  /// after the impact, later by rounding.
+  [[nodiscard]] bool begins(double time) const { return !(time > 0.0) || std::isnan(first_x_); }
   [[nodiscard]] static Complex turn(double angle) { return {std::cos(angle), -std::sin(angle)}; }
 
   /// Integral of e^{i w s} from 0 to `length`, without cancellation.
@@ -179,7 +201,7 @@ class ExactHarmonics {
   }
 
   double base_;
-  double first_x_ = 0.0;
+  double first_x_ = std::numeric_limits<double>::quiet_NaN();
   double evaluations_ = 0.0;
   std::vector<Complex> x_, v_;
 };

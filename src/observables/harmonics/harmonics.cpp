@@ -1,5 +1,6 @@
 #include "observables/harmonics/harmonics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <memory>
@@ -37,24 +38,32 @@ Coordinate harmonic_coordinate(std::size_t count) {
 
 std::vector<Column<Harmonics::Values>> Harmonics::columns(const Settings& settings) {
   const Coordinate harmonic = harmonic_coordinate(count_of(settings));
-  const auto of = [&](const char* name, const char* long_name, Quantity quantity, Spectrum Values::*spectrum,
-                      std::vector<double> Spectrum::*part) {
-    return series<Values>(
-        name, long_name, quantity, harmonic,
-        [spectrum, part](const Values& v) -> const std::vector<double>& { return v.*spectrum.*part; });
-  };
   constexpr std::string_view beyond = "the harmonic is above half the rate of the samples (method fft)",
                              constant = "it is that of the constant part, or above half the rate of the samples";
-  return {missing_if(beyond, in_observed_frame(of("x_amplitude", "amplitude of the harmonics of displacement",
-                                                  Quantity::length, &Values::x_spectrum, &Spectrum::amplitude))),
-          missing_if(constant, in_observed_frame(of("x_phase", "phase of the harmonics of displacement at tau = 0",
-                                                    Quantity::angle, &Values::x_spectrum, &Spectrum::phase))),
-          missing_if(beyond, in_observed_frame(of("v_amplitude", "amplitude of the harmonics of velocity",
-                                                  Quantity::velocity, &Values::v_spectrum, &Spectrum::amplitude))),
-          missing_if(constant, in_observed_frame(of("v_phase", "phase of the harmonics of velocity at tau = 0",
-                                                    Quantity::angle, &Values::v_spectrum, &Spectrum::phase))),
-          scalar("base_frequency", "frequency whose multiples the harmonics are", &Values::base_frequency,
-                 Quantity::frequency)};
+  std::vector<Column<Values>> all;
+  const auto add = [&](const std::string& letter, const std::string& words, Quantity quantity,
+                       Spectrum Values::*spectrum) {
+    const auto of = [&](const char* part_name, const std::string& long_name, Quantity unit,
+                        std::vector<double> Spectrum::*part) {
+      return series<Values>(
+          letter + part_name, long_name, unit, harmonic,
+          [spectrum, part](const Values& v) -> const std::vector<double>& { return v.*spectrum.*part; });
+    };
+    all.push_back(
+        missing_if(beyond, of("_amplitude", "amplitude of the harmonics of " + words, quantity, &Spectrum::amplitude)));
+    all.push_back(missing_if(constant, of("_phase", "phase of the harmonics of " + words + " at tau = 0",
+                                          Quantity::angle, &Spectrum::phase)));
+  };
+  add("x", "displacement", Quantity::length, &Values::x_spectrum);
+  add("v", "velocity", Quantity::velocity, &Values::v_spectrum);
+  for (Column<Values>& column : all) column = in_observed_frame(std::move(column));
+  if (settings.loose_harmonics) {
+    add("z", "the place in the housing", Quantity::length, &Values::z_spectrum);
+    add("w", "the velocity over the housing", Quantity::velocity, &Values::w_spectrum);
+  }
+  all.push_back(scalar("base_frequency", "frequency whose multiples the harmonics are", &Values::base_frequency,
+                       Quantity::frequency));
+  return all;
 }
 
 FourierScratch Harmonics::scratch_for(const Settings& settings) {
@@ -88,20 +97,40 @@ Harmonics::Values Harmonics::Observer::finish_exact(const ObservedSpan& span, do
     return sampled_spectrum(samples_->count(), span.base_turns, highest_,
                             [&](std::size_t k, std::size_t) { return harmonics[k]; });
   };
-  return {spectrum(exact_->displacement()), spectrum(exact_->velocity()), span.base_frequency};
+  Values values{.x_spectrum = spectrum(exact_->displacement()),
+                .v_spectrum = spectrum(exact_->velocity()),
+                .base_frequency = span.base_frequency};
+  if (loose_exact_) {
+    ExactHarmonics& loose = loose_exact_->of();
+    loose.finish(loose_exact_->last_z(), span.total);
+    values.z_spectrum = spectrum(loose.displacement()), values.w_spectrum = spectrum(loose.velocity());
+  }
+  return values;
 }
 
 Harmonics::Values Harmonics::Observer::finish_samples(const ObservedSpan& span, double x, double v) {
   samples_->finish(x, v, span.total, span.periodic);
   if (span.frame) samples_->add(*span.frame);
-  const auto& [transform, workspace] = *span.fourier;
-  const auto [of_x, of_v] = transform->transform(*workspace);
+  const FourierScratch& fourier = *span.fourier;
+  const std::size_t count = samples_->count();
   const auto spectrum = [&](std::span<const std::complex<double>> sums) {
-    const std::size_t count = samples_->count();
     return sampled_spectrum(count, span.base_turns, highest_,
                             [&](std::size_t, std::size_t i) { return sums[i] / static_cast<double>(count); });
   };
-  return {spectrum(of_x), spectrum(of_v), span.base_frequency};
+  const auto transform = [&](Spectrum& displacement, Spectrum& velocity) {
+    const auto sums = fourier.transform->transform(*fourier.workspace);
+    displacement = spectrum(sums[0]), velocity = spectrum(sums[1]);
+  };
+  Values values{.base_frequency = span.base_frequency};
+  transform(values.x_spectrum, values.v_spectrum);
+  if (loose_samples_) {  // in the rows of x and v, whose sums have been read
+    loose_samples_->finish(span.total, span.periodic);
+    const auto rows = fourier.transform->samples(*fourier.workspace);
+    std::ranges::copy(loose_samples_->place(), rows[0].begin());
+    std::ranges::copy(loose_samples_->velocity(), rows[1].begin());
+    transform(values.z_spectrum, values.w_spectrum);
+  }
+  return values;
 }
 
 }  // namespace clatter::observables

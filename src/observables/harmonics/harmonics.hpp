@@ -22,11 +22,13 @@ struct Harmonics {
   struct Settings {
     std::int64_t harmonics = 0;  ///< highest harmonic K, 0: none observed
     HarmonicsMethod harmonics_method = HarmonicsMethod::fft;
+    bool loose_harmonics = false;           ///< with them: those of the place of a loose mass
     std::int64_t harmonics_samples = 4096;  ///< FFT samples over the observed time
     double base_frequency = 0.0;            ///< of harmonics; 0: the force's, without forcing the motion's own
   };
   struct Values {
     Spectrum x_spectrum{}, v_spectrum{};  ///< shape [harmonic]
+    Spectrum z_spectrum{}, w_spectrum{};  ///< shape [harmonic]: of the place of a loose mass in its housing, and of z'
     double base_frequency = no_value;
   };
 
@@ -38,7 +40,8 @@ struct Harmonics {
                 Kind::integer,
                 "0",
                 "3",
-                "constant part and amplitudes 1 ... K of x and of x'; 0: none",
+                "constant part and amplitudes 1 ... K of x and of x', with a loose mass of its place z and of z', too; "
+                "0: none",
                 {.low = 0, .high = 1e5}},
             &Settings::harmonics},
       Field{with(observed, one_of(methods, Key{"observe", "harmonics_method", Kind::choice, "fft", "exact",
@@ -68,9 +71,11 @@ struct Harmonics {
     return static_cast<std::size_t>(settings.harmonics) + 1;
   }
 
-  /// Each point's rows of samples of x and v, and of their sums; the factors of the transform are common to all.
+  /// Each point's rows of samples of x and v, and of their sums, with a loose mass of samples of z and z', too; the
+  /// factors of the transform are common to all.
   [[nodiscard]] static double values_held(const Settings& settings, int points) {
-    return from_samples(settings) ? (4 * points + 1) * static_cast<double>(settings.harmonics_samples) : 0.0;
+    const int rows = settings.loose_harmonics ? 6 : 4;
+    return from_samples(settings) ? (rows * points + 1) * static_cast<double>(settings.harmonics_samples) : 0.0;
   }
   /// The transform and a thread's memory for it, if samples are taken. Throws std::bad_alloc.
   [[nodiscard]] static FourierScratch scratch_for(const Settings& settings);
