@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "branches/equations/housing_multipliers.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/record.hpp"
 #include "branches/simultaneous_end.hpp"
@@ -87,7 +88,7 @@ class CurveFollower {
       if (!record_.knows(start.kind, start.at) && !record_.is_full()) follow(start);
     }
     Branches found = record_.take();
-    found.left_out = along.left_out;
+    found.left_out = along.left_out, found.letters = along.letters;
     found.ends.insert(found.ends.end(), along.ends.begin(), along.ends.end());
     return found;
   }
@@ -150,6 +151,8 @@ class CurveFollower {
           if ((parameter(next->at, axis) > bound) == (bound == ranges_[axis][1]) && parameter(next->at, axis) != bound)
             return end_at_bound(equations, walk, axis, bound, step), false;
       if (violation(equations, next->at)) return end_in_graze(equations, walk, step), false;
+      if (const auto end = strong_resonance(equations, walk, step))
+        return end_at(SpecialKind::strong_resonance, *end), false;
       special_between(equations, walk, step);
       note_start_between(equations, walk, step);
       if (walk.passes(start, *next)) {
@@ -192,8 +195,8 @@ class CurveFollower {
     const auto between = narrowed(equations, walk, step);
     if (!between) return record_.fail(record_.point(equations, walk.here()), no_step);
     if (between->violated.kind == Violation::Kind::at_once)
-      return end_at_once(
-          record_.point(equations, point_at_once(equations, walk, *between).value_or(between->last_good)));
+      return end_at(SpecialKind::simultaneous,
+                    record_.point(equations, point_at_once(equations, walk, *between).value_or(between->last_good)));
     const std::optional<Touch> touch = touch_of(equations, *between);
     special_between(equations, walk, touch->last_good.arclength - walk.here().arclength);
     if (touch->vanishes && ends_without_contact(equations, touch->last_good, touch->beyond.at, *touch->vanishes))
@@ -223,10 +226,20 @@ class CurveFollower {
     record_.add(last), record_.end(last, std::string(name_of(kind)));
   }
 
-  /// The curve ends as an event of each of the two masses falls on the same instant.
-  void end_at_once(const BranchPoint& last) {
-    record_.note(SpecialKind::simultaneous, last);
-    record_.add(last), record_.end(last, std::string(name_of(SpecialKind::simultaneous)));
+  /// The point within a step at which a pair of multipliers with the product 1 becomes real.
+  [[nodiscard]] std::optional<BranchPoint> strong_resonance(const OrbitEquations& equations, const Walk& walk,
+                                                            double step) const {
+    if (kind_ != SpecialKind::neimark_sacker) return std::nullopt;
+    const auto beyond_real = [&](const CurvePoint& p) {
+      return housing_characteristic(equations.scene_at(p.at), equations.orbit_at(p.at)).beyond_real();
+    };
+    const auto zero = walk.zero(beyond_real, step);
+    return zero ? std::optional(record_.point(equations, *zero)) : std::nullopt;
+  }
+  /// The curve ends in a special point of its own.
+  void end_at(SpecialKind kind, const BranchPoint& last) {
+    record_.note(kind, last);
+    record_.add(last), record_.end(last, std::string(name_of(kind)));
   }
 
   /// Whether the curve ends because a contact with a soft stop, or an interruption of one, vanishes there.
@@ -249,7 +262,7 @@ class CurveFollower {
     const auto contact = shortest_contact(equations.orbit_at(last_good.at));
     if (contact && !equations.grazing() && ends_without_contact(equations, last_good, last_good.at, *contact)) return;
     const BranchPoint last = record_.point(equations, last_good);
-    if (has_events_at_once(last.orbit)) return end_at_once(last);
+    if (has_events_at_once(last.orbit)) return end_at(SpecialKind::simultaneous, last);
     if (failure == no_graze) record_.add(last);
     record_.fail(last, failure);
   }

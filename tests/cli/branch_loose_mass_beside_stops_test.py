@@ -97,6 +97,43 @@ class BranchLooseMassBesideStops(BranchRuns):
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn(told, done.stderr)
 
+    def test_points_of_curves_are_special_points_of_branches(self):
+        """A branch at the second parameter of a point of a curve has that special point; of Neimark-Sacker points the
+        pair of multipliers lies on the unit circle."""
+        sink = (
+            "[scene]\nh = 0.02\nf = 0.3\nloose_mass = 0.05\nloose_gap = 1.9\nloose_R = 0.6\nnu = 1.2\nloose_v0 = 0.5\n"
+        )
+        beside = self.settled("[scene]\n" + SCENES["LlUuuu"] + OWN, "LlUuuu")
+        for text, along, across, curve in (
+            (sink, ("nu", 1.1, 1.35), ("loose_R", 0.5, 0.7), "Neimark-Sacker"),
+            (sink + "stop_upper = 9\n", ("nu", 1.1, 1.35), ("loose_mass", 0.03, 0.07), "Neimark-Sacker"),
+            (beside, ("loose_R", 0.55, 0.65), ("stop_damping", 0.28, 0.32), "fold"),
+            (beside, ("loose_R", 0.55, 0.65), ("loose_gap", 0.49, 0.51), "flip"),
+            (beside, ("loose_R", 0.55, 0.65), ("xs", 0.49, 0.51), "graze"),
+        ):
+            branch = f'[branch]\nalong = "{along[0]}"\nrange = [{along[1]}, {along[2]}]\n'
+            second = f'across = "{across[0]}"\nacross_range = [{across[1]}, {across[2]}]\ncurve = "{curve}"\n'
+            with self.subTest(along=along, across=across, curve=curve):
+                curves = self.followed(text + branch + second)
+                first, other = curves[along[0]], curves[across[0]]
+                inside = np.flatnonzero((first > along[1] * 1.01) & (first < along[2] * 0.99) & (curves["branch"] == 0))
+                self.assertGreater(len(inside), 8)
+                self.assertGreater(np.ptp(other[inside]), 0.1 * (across[2] - across[1]))
+                if curve == "Neimark-Sacker":
+                    pair = (curves["multiplier_re"] + 1j * curves["multiplier_im"])[inside, 0]
+                    np.testing.assert_allclose(abs(pair), 1, atol=1e-9)
+                for k in inside[:: max(1, len(inside) // 4)]:
+                    lines = [line for line in text.splitlines() if line.split(" =")[0] not in (*STATE, *across[:1])]
+                    state = zip(STATE, (curves[name][k] for name in "xvzw"))
+                    start = "".join(f"{key} = {float(value)!r}\n" for key, value in state)
+                    scene = "\n".join(line for line in lines if line.split(" =")[0] != along[0])
+                    near = self.followed(
+                        f"{scene}\n{across[0]} = {other[k]!r}\n{along[0]} = {first[k] * (1 + 1e-5)!r}\n{start}{branch}"
+                        f"period = {round(curves['period_ratio'][k])}\n"
+                    )
+                    there = near["special_" + along[0]][near["special_kind"] == curve.encode()]
+                    self.assertLess(np.min(abs(there - first[k])), 1e-8 * first[k])
+
     def test_a_container_without_a_spring_is_followed_where_it_is(self):
         text = "[scene]\nnu = 1.2\nf = 0.5\nh = 0.1\nstiffness = 0\nloose_mass = 0.3\nloose_gap = 0.3\nloose_R = 0.6\n"
         for x0 in (0.0, 7.0):

@@ -141,8 +141,8 @@ double HousingCharacteristic::distance_to_unit_product() const {
   return (b - leading * (1 + D)) * leading * (1 - D) * (1 - D) - (c - a) * (a * D - c);
 }
 
-bool HousingCharacteristic::would_be_complex() const {
-  return std::abs(c - a) < 2 * (1 - determinant) * std::abs(leading);
+double HousingCharacteristic::beyond_real() const {
+  return 2 * (1 - determinant) * std::abs(leading) - std::abs(c - a);
 }
 
 std::array<std::complex<double>, 4> housing_multipliers(const FollowedScene& scene, const Orbit& orbit) {

@@ -30,7 +30,9 @@ struct HousingCharacteristic {
   /// Zero if the product of two multipliers is 1.
   [[nodiscard]] double distance_to_unit_product() const;
   /// Whether two multipliers with such a product would be a complex pair.
-  [[nodiscard]] bool would_be_complex() const;
+  [[nodiscard]] bool would_be_complex() const { return beyond_real() > 0; }
+  /// Positive if they would be; zero if both would be 1, or -1.
+  [[nodiscard]] double beyond_real() const;
 };
 [[nodiscard]] HousingCharacteristic housing_characteristic(const FollowedScene& scene, const Orbit& orbit);
 

@@ -25,10 +25,11 @@ enum class SpecialKind : std::uint8_t {
   switching_sliding,  ///< likewise: a reversal and the slip to a stick vanish, or appear before it
   neimark_sacker,     ///< of a loose mass: a pair of multipliers leaves the unit circle
   motion_ceases,      ///< under dry friction: it comes up to the force, and beyond holds the mass for good
-  simultaneous        ///< of a loose mass: an event of each of the two masses at the same instant
+  simultaneous,       ///< of a loose mass: an event of each of the two masses at the same instant
+  strong_resonance    ///< of a curve of Neimark-Sacker points: the pair of multipliers comes to 1 or -1
 };
 [[nodiscard]] constexpr std::string_view name_of(SpecialKind kind) {
-  constexpr std::array<std::string_view, 17> names{"fold",
+  constexpr std::array<std::string_view, 18> names{"fold",
                                                    "flip",
                                                    "symmetry breaking",
                                                    "graze",
@@ -44,7 +45,8 @@ enum class SpecialKind : std::uint8_t {
                                                    "switching-sliding",
                                                    "Neimark-Sacker",
                                                    "motion ceases",
-                                                   "simultaneous events"};
+                                                   "simultaneous events",
+                                                   "strong resonance"};
   return names[static_cast<std::size_t>(kind)];
 }
 
