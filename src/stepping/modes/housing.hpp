@@ -318,7 +318,8 @@ template <class Loop, class Stage, class Number>
     const motion::Crossing<Number>& contact = end.contact;
     if (!contact.resolved) return loop.outcome_at(contact);
     if (end.is_none) return wait_in_housing(loop, stage, end, start.w);
-    stage.show_rest(side, Number(contact.elapsed / loop.period()), held);
+    stage.show_rest(side, Number(contact.elapsed / loop.period()), held, 0.0,
+                    static_cast<double>(loop.constants().rubbing));
     stage.show(motion::HousedArc{main, beside}, contact.elapsed);
     move_loose(walls, state.loose, contact);
     if (contact.elapsed == length)
