@@ -203,7 +203,8 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
   CertifiedPoint point{.status = known.status};
   if (known.status == Status::grazing) point.without = Without::graze;
   if (known.status != Status::periodic && known.status != Status::transient) return point;
-  if (has_loose_mass(problem.loose) && (has_events_of_its_own(problem) || !(problem.oscillator.stiffness > 0))) {
+  const bool has_own = has_events_of_its_own(problem) || has_loose_friction(problem.loose);
+  if (has_loose_mass(problem.loose) && (has_own || !(problem.oscillator.stiffness > 0))) {
     point.without = Without::both_masses;
     return point;
   }

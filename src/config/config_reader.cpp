@@ -109,7 +109,8 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
     observed.loose_impacts = false;
     observed.wall_impacts = observed.wall_energy = observed.wall_log = observed.word_walls = true;
   }
-  sweep.problem.observe.of_friction = sweep.problem.observe.of_sticks = has_friction_somewhere(settings);
+  observed.of_sticks = has_friction_somewhere(settings);
+  observed.of_friction = observed.of_sticks || has_loose_friction(settings);
   if (sweep.follow) sweep.direction = direction_of(settings), observed.followed_attractor = true;
   for (const std::vector<std::size_t>& group : groups) {
     sweep::Dimension& dimension = sweep.dimensions.emplace_back();

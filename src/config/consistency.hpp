@@ -65,6 +65,8 @@ void check_housing(const Settings& settings, const AxisGroups& groups);
 
 /// Whether there is a loose mass.
 [[nodiscard]] bool has_loose_mass(const Settings& settings);
+/// Whether it rubs on its housing at some point of the sweep.
+[[nodiscard]] bool has_loose_friction(const Settings& settings);
 /// Whether the main mass that carries it has stops or friction at some point of the sweep.
 [[nodiscard]] bool has_main_events(const Settings& settings);
 /// Whether a parameter is of what a main mass that carries a loose one lacks: stops of its own, and friction.

@@ -23,6 +23,9 @@ std::optional<Parameter> followed(const Settings& settings, const std::string& k
   return settings.find("branch", key) != nullptr ? Parameter::of(settings.text("branch", key)) : std::nullopt;
 }
 
+/// Whether a key is a level of the friction of a loose mass on its housing.
+bool is_loose_friction(Parameter parameter) { return parameter.is_loose() && parameter.role() == Role::friction; }
+
 /// Keys of a loose mass need the mass.
 void check_completeness(const Settings& settings) {
   for (const Parameter parameter : all_parameters) {
@@ -75,6 +78,14 @@ Own own_of(const Settings& settings) {
   return {};
 }
 
+/// The friction of the loose mass on its housing.
+Own loose_friction_of(const Settings& settings) {
+  for (const Parameter level : std::array<Parameter, 2>{"loose_friction", "loose_friction_static"})
+    if (const SourceLocation* const place = place_of_nonzero(settings.given(level)))
+      return {place, "friction of the loose mass"};
+  return {};
+}
+
 /// The stops of the main mass, and its friction, stand on the ground on which its motion is computed.
 void check_main_mass(const Settings& settings) {
   if (const SourceLocation* const place = place_of_nonzero(settings.given("stop_amplitude")))
@@ -115,7 +126,7 @@ void check_followed(const Settings& settings, const std::string& key, const Sett
   const std::string asked = key + " = " + in_quotes(parameter.key());
   if (parameter.role() == Role::friction || parameter == "stop_amplitude")
     refuse(place.location, asked,
-           "it is followed without a loose mass alone; run a sweep of it, or follow another parameter");
+           "no branch beside a loose mass is followed along it; run a sweep of it, or follow another parameter");
   if (conflicts_with_loose_mass(parameter) && place_of_stop(settings) == nullptr)
     refuse(place.location, asked,
            "the main mass has no stop; follow loose_gap, loose_lower, loose_upper or loose_R, or give it stops");
@@ -131,10 +142,11 @@ void check_followed(const Settings& settings, const std::string& key, const Sett
 void check_branch(const Settings& settings) {
   const std::optional<Parameter> along = followed(settings, "along");
   if (!along) return;
-  if (const Own friction = friction_of(settings); friction.place != nullptr)
-    fail(*friction.place, friction.name +
-                              " conflicts with [branch] beside 'loose_mass'; run a sweep, and give it follow = " +
-                              in_quotes(along->key()));
+  for (const Own& friction : {friction_of(settings), loose_friction_of(settings)})
+    if (friction.place != nullptr)
+      fail(*friction.place, friction.name +
+                                " conflicts with [branch] beside 'loose_mass'; run a sweep, and give it follow = " +
+                                in_quotes(along->key()));
   check_followed(settings, "along", settings.find("branch", "range"));
   check_followed(settings, "across", settings.find("branch", "across_range"));
 }
@@ -147,10 +159,18 @@ void check_uses(const Settings& settings) {
     if (of_main.place != nullptr)
       fail(*of_main.place, of_main.name + " conflicts with " + beside + " beside 'loose_mass'; " + way_out);
   };
-  if (settings.find("observe", "attractor") != nullptr && settings.flag("observe", "attractor"))
-    refuse_own(friction_of(settings), "'attractor'", "leave that out, and take word = true");
-  if (settings.text("integrator", "method") == "moreau")
-    refuse_own(own, "method = \"moreau\"", "take \"exact\" or \"dopri5\"");
+  const Own rubbing = loose_friction_of(settings);
+  for (const Own& rough : {friction_of(settings), rubbing})
+    if (settings.find("observe", "attractor") != nullptr && settings.flag("observe", "attractor"))
+      refuse_own(rough, "'attractor'", "leave that out, and take word = true");
+  for (const Own& other : {own, rubbing})
+    if (settings.text("integrator", "method") == "moreau")
+      refuse_own(other, "method = \"moreau\"", "take \"exact\" or \"dopri5\"");
+  if (settings.find("observe", "stability") != nullptr && settings.flag("observe", "stability"))
+    refuse_own(rubbing, "'stability'", "leave that out");
+  if (const Setting* const names = settings.find("observe", "sensitivity");
+      names != nullptr && !settings.text("observe", "sensitivity").empty())
+    refuse_own(rubbing, "'sensitivity'", "leave that out, and run with neighbouring values");
 }
 
 }  // namespace
@@ -166,6 +186,10 @@ void check_housing(const Settings& settings, const AxisGroups& groups) {
   if (settings.given(loose_mass) == nullptr) return;
   check_walls(settings, groups);
   check_force(settings, groups);
+  if (settings.given("loose_friction_static") != nullptr)
+    compare(
+        placed(settings, groups, "loose_friction"), placed(settings, groups, "loose_friction_static"),
+        [](double kinetic, double level) { return kinetic <= level; }, "loose_friction <= loose_friction_static");
   const bool symmetric = settings.given("loose_gap") != nullptr;
   const Placed gap = symmetric ? placed(settings, groups, "loose_gap") : Placed{};
   const Placed lower = symmetric ? mirrored(gap, -1, "loose_gap") : placed(settings, groups, "loose_lower"),
@@ -185,6 +209,8 @@ bool conflicts_with_loose_mass(Parameter parameter) {
 bool has_main_events(const Settings& settings) {
   return place_of_stop(settings) != nullptr || has_friction_somewhere(settings);
 }
+
+bool has_loose_friction(const Settings& settings) { return loose_friction_of(settings).place != nullptr; }
 
 bool has_loose_mass(const Settings& settings) { return settings.given(loose_mass) != nullptr; }
 

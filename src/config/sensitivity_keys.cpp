@@ -11,6 +11,7 @@ namespace {
 /// Whether a key is one of a machine with a loose mass, of whose main mass stops and friction are its own. Nothing
 /// shakes these.
 bool is_of_housed(const Settings& settings, Parameter parameter) {
+  if (parameter.is_loose() && parameter.role() == Role::friction) return false;
   if (!has_main_events(settings)) return !conflicts_with_loose_mass(parameter);
   if (parameter.role() == Role::friction) return has_friction_somewhere(settings);
   return parameter != "stop_amplitude" && parameter != "base_amplitude";

@@ -45,6 +45,7 @@ class ArcConstants {
     ArcConstants pressed =
         of(free.h + stop.damping, free.f, free.nu, free.load + stop.stiffness * stop.position, free.k + stop.stiffness);
     pressed.stop = stop, pressed.friction = free.friction, pressed.carried = free.carried;
+    pressed.rubbing = free.rubbing;
     if (pressed.natural > 0) {
       pressed.origin = stop.position, pressed.balance = (free.load - free.k * stop.position) / pressed.k;
       pressed.equilibrium = pressed.origin + pressed.balance;
@@ -128,6 +129,7 @@ class ArcConstants {
   Number h, f, nu, load;       ///< of the oscillator; without forcing nu is that of `counting_frequency`
   Number carried{};            ///< a loose mass that a wall presses, over the main mass; 0: none
   Number friction{};           ///< the part of the load that is dry friction, against the velocity of a slip
+  Number rubbing{};            ///< the part of the load that is the friction of a loose mass that slides in its housing
   Number k;                    ///< stiffness; 1 unless it is an effect
   Number equilibrium;          ///< the displacement at which the spring balances the load; 0 without a spring
   Number unbalanced;           ///< the load, if no spring balances it, else 0

@@ -24,7 +24,7 @@ struct Event {
     reversal,    ///< of a slip: the velocity falls to 0 and changes its sign at once
     strike,      ///< of a loose mass on a wall of its housing
     press,       ///< a loose mass comes to rest on a wall; the rest of its chatter is lost at once
-    hold,        ///< a wall presses a loose mass, so that it moves with the main mass
+    hold,        ///< a wall presses a loose mass, or friction holds it, so that it moves with the main mass
   };
   /// The word for a kind.
   [[nodiscard]] static constexpr std::string_view word(Kind kind) {
@@ -38,7 +38,7 @@ struct Event {
   };
 
   Kind kind = Kind::impact;
-  Side side = Side::none;  ///< the stop, or the wall; none: friction alone holds or turns the mass
+  Side side = Side::none;  ///< the stop, or the wall; none: friction alone holds or turns a mass
   double time = 0.0;       ///< tau since observation began; of a time that lasts its beginning
   double before = 0.0;     ///< velocity before it, of a loose mass z'; of a chatter at its beginning
   double length = 0.0;     ///< of what lasts, tau
@@ -47,7 +47,8 @@ struct Event {
   double turns = 0.0;      ///< of a contact: forcing periods since the section before it, 0 ... 1
   bool held = true;        ///< of what lasts: at rest; false: a chatter, or a force within rounding of 0 is waited for
   bool has_arc = false;    ///< of what lasts: an arc shows it, too, since a loose mass moves meanwhile
-  double carried = 0.0;    ///< of a rest and a stick: the loose mass, over the main one, that a wall presses meanwhile
+  double carried = 0.0;    ///< of a rest and a stick: the loose mass, over the main one, that it carries meanwhile
+  double rubbing = 0.0;    ///< of these: the friction of a loose mass that slides meanwhile
   double a_before = 0.0, a_after = 0.0;  ///< of a reversal: the accelerations, between which friction makes it jump
   Main main{};                           ///< of a strike and a press
   bool of_wall = false;                  ///< of a loose mass, but told as one of a mass between stops
@@ -65,11 +66,12 @@ struct Event {
   [[nodiscard]] double speed() const { return std::abs(velocity()); }
 
   /// An event of a loose mass as one of a mass between stops, which its walls are: a strike as an impact, a hold as a
-  /// rest. Others are as they are.
+  /// rest, by friction alone as a stick. Others are as they are.
   [[nodiscard]] Event in_housing() const {
     Event same = *this;
     if (kind == Kind::strike) same.kind = Kind::impact;
-    if (kind == Kind::hold) same.kind = Kind::rest, same.has_arc = false;  // the arc is that of the main mass
+    if (kind == Kind::hold)  // the arc is that of the main mass
+      same.kind = side == Side::none ? Kind::stick : Kind::rest, same.has_arc = false;
     same.of_wall = same.kind != kind;
     return same;
   }

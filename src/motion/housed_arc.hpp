@@ -6,7 +6,7 @@
 
 namespace clatter::motion {
 
-/// A loose mass that a wall presses, and its place z.
+/// A loose mass that moves with the main one, and its place z: a wall presses it, or friction alone holds it.
 struct Pressed {
   Side wall = Side::none;
   double place = 0.0;

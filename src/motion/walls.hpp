@@ -38,6 +38,14 @@ struct WallRule {
   }
 };
 
+/// The constants of the main mass beside a loose one that slides towards a side: friction draws it along (eq. 80).
+template <class Number, Effects E>
+[[nodiscard]] ArcConstants<Number, E> drawn(const ArcConstants<Number, E>& free, const Number& friction, Side towards) {
+  const Number force = sign_of(towards) * friction;
+  auto constants = ArcConstants<Number, E>::of(free.h, free.f, free.nu, free.load + force, free.k);
+  constants.rubbing = force, constants.period = free.period;
+  return constants;
+}
 /// The constants of the main mass with a loose mass that a wall presses: (1 + eps) x'' + 2 h x' + k x = f sin(theta) +
 /// load + eps y'' (eq. 71).
 template <class Constants, class Number, Effects E, class Other>
@@ -97,20 +105,39 @@ class CarryingOscillator {
   Any of_;
 };
 
-/// The housing of a loose mass.
+/// The housing of a loose mass, whose walls stop it, and on which it may rub.
 template <class Number>
 struct Walls {
   template <class Other = double>
   explicit Walls(const BasicLooseMass<Other>& loose)
       : rule(loose),
         load(loose.load),
-        places{.lower = static_cast<double>(loose.lower), .upper = static_cast<double>(loose.upper)} {}
+        places{.lower = static_cast<double>(loose.lower), .upper = static_cast<double>(loose.upper)} {
+    if (!has_loose_friction(loose)) return;
+    hold = Number(loose.friction_static) / rule.ratio;
+  }
+
+  /// The same for a loose mass that slides towards a side: friction brakes it (eq. 80).
+  template <class Other>
+  [[nodiscard]] static Walls of_slide(const BasicLooseMass<Other>& loose, Side towards) {
+    Walls walls(loose);
+    const Number kinetic(loose.friction), more = Number(loose.friction_static) - kinetic;
+    walls.slides_to = towards;
+    walls.load -= sign_of(towards) * kinetic / walls.rule.ratio;
+    walls.jump = -sign_of(towards) * more / walls.rule.share();
+    return walls;
+  }
 
   [[nodiscard]] Number place(Side side) const { return Number(side == Side::upper ? places.upper : places.lower); }
+  /// Whether the loose mass rubs on its housing.
+  [[nodiscard]] bool is_rough() const { return hold > 0; }
 
   WallRule<Number> rule;
-  Number load;   ///< y''
-  Stops places;  ///< of the walls
+  Number load;                  ///< y''; of a loose mass that slides with the friction
+  Stops places;                 ///< of the walls
+  Number hold{};                ///< the static level of the friction, as an acceleration of the loose mass
+  Side slides_to = Side::none;  ///< the side to which the loose mass slides
+  Number jump{};                ///< by how much x'' differs from y'' at the instant at which friction lets it slide
 };
 
 /// The place of a loose mass in its housing, z, and z'.
@@ -146,13 +173,19 @@ template <class Number>
   return state;
 }
 
-/// The start of a loose mass, from that of the main mass.
+/// The start of a loose mass, from that of the main mass. Where friction may hold it, it counts from a wall at once, so
+/// that its place in the housing stays exactly the same.
 template <class Number>
 [[nodiscard]] LooseState<Number> loose_start(const Scene& scene) {
   const LooseMass& loose = scene.loose;
   for (const Side side : {Side::lower, Side::upper})
     if (loose.place == (side == Side::upper ? loose.upper : loose.lower))
       return {side, Number(0), Number(loose.velocity)};
+  if (has_loose_friction(loose)) {
+    const bool is_nearer_above = !(loose.place - loose.lower <= loose.upper - loose.place);
+    const Side wall = is_nearer_above ? Side::upper : Side::lower;
+    return {wall, Number(loose.place) - Number(is_nearer_above ? loose.upper : loose.lower), Number(loose.velocity)};
+  }
   return {Side::none, Number(scene.start.displacement) + Number(loose.place),
           Number(scene.start.velocity) + Number(loose.velocity)};
 }

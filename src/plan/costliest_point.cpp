@@ -60,6 +60,7 @@ double bounces_on(const point::Problem& scene, double position, double pull) {
 /// eps/(1 + eps) of the relative velocity w, of which damping takes its share: w falls as e^(-2ht/3 eps/(1 + eps)).
 double bounces_in_housing(const point::Problem& scene) {
   const LooseMass& loose = scene.loose;
+  if (has_loose_friction(loose)) return 0;
   const double both = 1 + loose.ratio, wall = loose.load < 0 ? loose.lower : loose.upper;
   if ((loose.load < 0 ? loose.restitution_lower : loose.restitution_upper) < 1 || loose.load == 0 || std::isinf(wall))
     return 0;

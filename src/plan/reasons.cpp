@@ -170,7 +170,10 @@ Reason loose_reason(const point::Problem& scene) {
                     text(loose.upper) + ", R = " + text(loose.restitution_lower) +
                     (loose.restitution_upper == loose.restitution_lower ? "" : " and " + text(loose.restitution_upper));
   const double middle = equilibrium_of(o), y = scene.start.displacement + loose.place - middle;
-  if (loose.load == 0 && scene.start.velocity + loose.velocity == 0) {
+  if (has_loose_friction(loose)) {
+    why += ", loose_friction = " + text(loose.friction);
+    if (loose.friction_static != loose.friction) why += ", loose_friction_static = " + text(loose.friction_static);
+  } else if (loose.load == 0 && scene.start.velocity + loose.velocity == 0) {
     const PhaseState start{scene.start.displacement - middle, scene.start.velocity, std::sin(scene.start.phase),
                            std::cos(scene.start.phase)};
     const double reach = displacement_bound(o, start, duration_of(scene.time), 0.0),
@@ -193,9 +196,11 @@ Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
   const double gap = lower_first ? constant_force(scene.oscillator, scene.stops.lower)
                                  : -constant_force(scene.oscillator, scene.stops.upper);
   const double weight = std::abs(scene.loose.ratio * scene.loose.load);  // with which a wall presses the loose mass
+  const double rubbing = scene.loose.friction_static;
   const std::string force = std::string("|f|") + (needs.effects.friction ? " + static friction" : "") +
-                            (weight != 0 ? " + loose_mass |loose_load|" : "") + " = " +
-                            text(std::abs(scene.oscillator.forcing) + scene.friction.static_level + weight) +
+                            (weight != 0 ? " + loose_mass |loose_load|" : "") +
+                            (rubbing != 0 ? " + static friction of the loose mass" : "") + " = " +
+                            text(std::abs(scene.oscillator.forcing) + scene.friction.static_level + weight + rubbing) +
                             (needs.effects.rest ? " >= " : " < ") + text(gap) +
                             (scene.oscillator.stiffness != 1 ? ", k times the stop less the load"
                              : scene.oscillator.load == 0    ? ""

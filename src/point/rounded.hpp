@@ -37,9 +37,12 @@ class InDouble {
   /// Calls `function(arc)` with an arc in double.
   template <class Number, Effects Of, class Function>
   void show(const motion::Arc<Number, Of>& arc, Function&& function) const {
-    if constexpr (E.loose)
+    if constexpr (E.loose) {
       if (arc.constants().carried != 0)
         return housing_.carrying.with_mass([&](const auto& mass) { show_of(mass, arc, function); });
+      if (const Number& rubbing = arc.constants().rubbing; rubbing != 0)
+        return show_of(housing_.slide(rubbing > 0 ? Side::upper : Side::lower).mass, arc, function);
+    }
     show_of(alone_, arc, function);
   }
 

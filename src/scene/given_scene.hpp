@@ -70,6 +70,8 @@ template <class Number, class Unit>
   f = f / force, load = load / force, k = k / force;
   scene.friction.kinetic = scene.friction.kinetic / force;
   scene.friction.static_level = scene.friction.static_level / force;
+  scene.loose.friction = scene.loose.friction / force;
+  scene.loose.friction_static = scene.loose.friction_static / force;
   scene.loose.ratio = scene.loose.ratio / m;
   scene.loose.load = scene.loose.load * (T * T), scene.loose.velocity = scene.loose.velocity * T;
   nu = (given.is_si ? Unit(2 * pi<Unit>()) : Unit(1)) * nu * T;
@@ -108,8 +110,11 @@ template <class Number, class Unit>
   const bool is_in_own_units = !given.is_si && units == BasicUnits<Unit>{};
   BasicScene<Number> scene = given;
   if (!is_in_own_units) scene = detail::in_units(given, units);
-  auto& [kinetic, static_level] = scene.friction;  // 0: the static level isn't given
-  if (static_level < kinetic || is_always_zero(static_level)) static_level = kinetic;
+  const auto complete = [](const Number& kinetic, Number& static_level) {  // 0: the static level isn't given
+    if (static_level < kinetic || is_always_zero(static_level)) static_level = kinetic;
+  };
+  complete(scene.friction.kinetic, scene.friction.static_level);
+  complete(scene.loose.friction, scene.loose.friction_static);
   detail::damp(scene.stops.stiffness_lower, given.stop_restitution_lower, scene.stops.damping_lower);
   detail::damp(scene.stops.stiffness_upper, given.stop_restitution_upper, scene.stops.damping_upper);
   if (is_finite(

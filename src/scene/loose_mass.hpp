@@ -18,6 +18,8 @@ struct BasicLooseMass {
   Number load{0.0};                                        ///< constant acceleration y'' between impacts, any finite
   Number place{0.0};                                       ///< z at tau = 0, between the walls
   Number velocity{0.0};                                    ///< z' at tau = 0
+  Number friction{0.0};         ///< of the housing, over the main mass, >= 0: against z' on both masses
+  Number friction_static{0.0};  ///< at z' = 0; no less than `friction` in a computed scene
 
   friend bool operator==(const BasicLooseMass&, const BasicLooseMass&) = default;
 };
@@ -26,6 +28,12 @@ using LooseMass = BasicLooseMass<double>;
 template <class Number = double>
 [[nodiscard]] constexpr bool has_loose_mass(const BasicLooseMass<Number>& loose) {
   return loose.ratio != 0;  // NaN keeps it
+}
+
+/// Whether it rubs on its housing.
+template <class Number = double>
+[[nodiscard]] constexpr bool has_loose_friction(const BasicLooseMass<Number>& loose) {
+  return has_loose_mass(loose) && (loose.friction != 0 || loose.friction_static != 0);  // NaN keeps it
 }
 
 }  // namespace scene

@@ -12,13 +12,18 @@ namespace detail {
 
 constexpr std::string_view in_housing = "f = 0.3\nnu = 1.3\nloose_gap = 1.9\n",
                            housed = "f = 0.3\nnu = 1.3\nloose_mass = 0.05\n",
-                           loose_between = "f = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_gap = 1.9\n";
+                           loose_between = "f = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_gap = 1.9\n",
+                           rubbed = "f = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_gap = 1.9\nloose_friction = 0.01\n";
 constexpr std::string_view machine_in_housing =
     "mass = 0.25\nstiffness = 800.0\nforce = 4.0\nfrequency = 9.0\nloose_gap = 8e-3\n";
 constexpr std::string_view machine_housed =
     "mass = 0.25\nstiffness = 800.0\nforce = 4.0\nfrequency = 9.0\nloose_mass = 0.01\n";
 constexpr std::string_view machine_loose_between =
     "mass = 0.25\nstiffness = 800.0\nforce = 4.0\nfrequency = 9.0\nloose_mass = 0.01\nloose_gap = 8e-3\n";
+
+constexpr std::string_view machine_rubbed =
+    "mass = 0.25\nstiffness = 800.0\nforce = 4.0\nfrequency = 9.0\nloose_mass = 0.01\nloose_gap = 8e-3\n"
+    "loose_friction = 0.01\n";
 
 }  // namespace detail
 
@@ -123,6 +128,35 @@ constexpr auto loose_rows() {
           .role = Role::loose_load,
           .is_loose = true,
           .place = in<Number, l, &L::load>},
+      Row{.key = "loose_friction",
+          .quantity = force,
+          .range = not_negative,
+          .in_scene = {"0", "0.02",
+                       "dry friction of the loose mass on its housing, a force in the unit of f: against z' on the "
+                       "loose mass, along it on the main one, and at z' = 0 whatever force makes both move as one, up "
+                       "to loose_friction_static",
+                       loose_between, "friction of the loose mass"},
+          .in_machine = {"0", "20 mN",
+                         "dry friction of the loose mass on its housing, a force against its velocity there; at rest "
+                         "there whatever force makes both masses move as one, up to loose_friction_static",
+                         machine_loose_between, "friction of the loose mass"},
+          .role = Role::friction,
+          .is_loose = true,
+          .place = in<Number, l, &L::friction>},
+      Row{.key = "loose_friction_static",
+          .quantity = force,
+          .range = not_negative,
+          .in_scene = {"", "0.03",
+                       "static level of loose_friction, the largest force with which the housing holds the loose mass, "
+                       "no less than loose_friction; without this key equal to it",
+                       rubbed, "static friction of the loose mass"},
+          .in_machine = {"", "30 mN",
+                         "static level of loose_friction, the largest force with which the housing holds the loose "
+                         "mass, no less than loose_friction; without this key equal to it",
+                         machine_rubbed, "static friction of the loose mass"},
+          .role = Role::friction,
+          .is_loose = true,
+          .place = in<Number, l, &L::friction_static>},
       Row{.key = "loose_x0",
           .quantity = length,
           .in_scene = {"0", "0.5", "place of the loose mass in the housing at tau = 0, between the walls",

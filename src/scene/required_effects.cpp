@@ -59,8 +59,8 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
   // friction holds a mass that is pulled away from a stop, too
   const double push =
       (std::abs(o.forcing) + scene.friction.static_level) * (1 + 4 * std::numeric_limits<double>::epsilon());
-  // and so is the pull of a loose mass that a wall presses
-  const double pull = push + std::abs(scene.loose.ratio * scene.loose.load);
+  // and so is the pull of a loose mass that a wall presses, or that rubs
+  const double pull = push + std::abs(scene.loose.ratio * scene.loose.load) + scene.loose.friction_static;
   effects.rest = (effects.lower && !soft_lower && !(pull < constant_force(o, stops.lower))) ||
                  (effects.upper && !soft_upper && !(pull < -constant_force(o, stops.upper)));
   return needs;

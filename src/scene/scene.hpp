@@ -51,8 +51,8 @@ template <class Number, class Other>
   same.shaking = {n(shaking.stops), n(shaking.base), n(shaking.lead), n(shaking.phase)};
   same.friction = {n(friction.kinetic), n(friction.static_level)};
   same.loose = {
-      n(loose.ratio), n(loose.lower), n(loose.upper),   n(loose.restitution_lower), n(loose.restitution_upper),
-      n(loose.load),  n(loose.place), n(loose.velocity)};
+      n(loose.ratio), n(loose.lower), n(loose.upper),    n(loose.restitution_lower), n(loose.restitution_upper),
+      n(loose.load),  n(loose.place), n(loose.velocity), n(loose.friction),          n(loose.friction_static)};
   return same;
 }
 

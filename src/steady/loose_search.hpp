@@ -25,13 +25,14 @@
 namespace clatter::steady {
 
 /// Whether a loose mass is proved to leave its housing for ever through the side without a wall: no force brings it
-/// back, and its displacement y keeps clear of all places at which the main mass can carry the wall that there is.
+/// back, and its displacement y keeps clear of all places at which the main mass can carry the wall that there is. Of
+/// one that rubs on the housing nothing is proved.
 [[nodiscard]] inline bool loose_mass_escapes(const Scene& scene, const motion::State<double>& state,
                                              const SineCosine<double>& phase) {
   const LooseMass& loose = scene.loose;
   const Oscillator& o = scene.oscillator;
   const bool is_open_above = std::isinf(loose.upper), is_open_below = std::isinf(loose.lower);
-  if (state.loose.pressed || (!is_open_above && !is_open_below)) return false;
+  if (state.loose.pressed || (!is_open_above && !is_open_below) || has_loose_friction(loose)) return false;
   const auto [z, w] = motion::place_in_housing(state, loose);
   const double y = state.loose.wall == Side::none ? state.loose.place : z + state.x,
                v = state.loose.wall == Side::none ? state.loose.speed : w + state.v;
@@ -51,7 +52,7 @@ namespace clatter::steady {
 
 /// Finds the steady state of forced motion with a loose mass, section by section: by Newton's method once successive
 /// states contract, else by repetition of its displacement and velocity, and the place of the loose mass in its housing
-/// with z'.
+/// with z'. Friction in the housing leaves the second: it isn't in the derivative that Newton's method takes.
 template <stepping::Integrator I>
 class HousingSearch {
  public:
@@ -60,7 +61,7 @@ class HousingSearch {
       : integrator_(integrator),
         scene_(scene),
         time_(time),
-        by_newton_(by_newton),
+        by_newton_(by_newton && !has_loose_friction(scene.loose)),
         from_(from),
         beyond_contact_(scene, integrator.period()),
         repeat_(time.tolerance),

@@ -41,7 +41,10 @@ class BasicPassageObserver {
   }
   void event(const motion::Event& event) {
     using Kind = motion::Event::Kind;
-    if (event.kind == Kind::hold) return;
+    if (event.kind == Kind::hold) {
+      if (event.side == Side::none) stick_in_housing(event);
+      return;
+    }
     passage_.itinerary = with(passage_.itinerary, mark_of(event));
     if (event.lasts() || event.kind == Kind::press)
       passage_.log_area = -std::numeric_limits<double>::infinity();
@@ -114,6 +117,11 @@ class BasicPassageObserver {
   }
   [[nodiscard]] static constexpr std::uint64_t with(std::uint64_t itinerary, std::uint64_t mark) {
     return (itinerary + mark) * 0x9e3779b97f4a7c15u;
+  }
+  /// Friction holds a loose mass in its housing, which takes z'.
+  void stick_in_housing(const motion::Event& hold) {
+    passage_.log_area = -std::numeric_limits<double>::infinity();
+    passage_.loose_size = std::max(passage_.loose_size, std::abs(hold.place));
   }
   void see(double x, double v) { passage_.size = std::max({passage_.size, std::abs(x), std::abs(v)}); }
 

@@ -5,34 +5,46 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "motion/walls.hpp"
 #include "stepping/integration.hpp"
 #include "stepping/main_mass.hpp"
 
-/// A main mass with a loose one: its housing, and both as one while a wall presses that.
+/// A main mass with a loose one: its housing, and both as one while a wall presses that, or friction holds it.
 namespace clatter::stepping {
 
-/// A wall that presses a loose mass.
+/// What makes a loose mass move with the main one, against leaving it to one side: the force of a wall, or friction.
 template <class Number>
 struct Pressing {
-  Side wall;
-  Number load;  ///< y'' of the loose mass alone
+  Side wall;    ///< that of the force, opposite to the side to which the mass would leave
+  Number load;  ///< y'' without that force, but with the friction at its level
 };
 
-/// The loop of a main mass that carries the loose one: modes take it in place of the loop.
-template <class Loop, class Mass>
-class Carrying {
+/// The loop with another main mass: both as one, or one beside which the loose mass flies or slides. Modes take it in
+/// place of the loop.
+template <class Loop, class Mass, bool both_as_one>
+class WithMass {
  public:
   using Number = typename Loop::Number;
   using State = motion::State<Number>;
   static constexpr Effects effects = Mass::effects;
-  static constexpr bool carries = true;
+  static constexpr bool carries = both_as_one;
 
-  Carrying(Loop& loop, const Mass& mass) : loop_(loop), mass_(mass) {}
+  WithMass(Loop& loop, const Mass& mass, const motion::Walls<Number>& walls)
+      : loop_(loop), mass_(mass), walls_(walls) {}
 
   [[nodiscard]] auto& method() const { return loop_.method(); }
-  [[nodiscard]] const auto& walls() const { return loop_.walls(); }
+  [[nodiscard]] const auto& walls() const { return walls_; }  ///< of a slide those with its friction
+  /// Calls `function(loop)` with that of a main mass beside which the loose one flies, or slides to a side.
+  template <class Function>
+  decltype(auto) beside(Side towards, Function&& function) const {
+    return loop_.beside(towards, std::forward<Function>(function));
+  }
+  template <class Stage>
+  [[nodiscard]] Outcome run_carrying(Stage& stage) const {
+    return loop_.run_carrying(stage);
+  }
   [[nodiscard]] bool loses() const { return loop_.loses(); }
   [[nodiscard]] const auto& held_constants(bool with_loose) const { return loop_.held_constants(with_loose); }
   [[nodiscard]] bool count_impact() const { return loop_.count_impact(); }
@@ -66,9 +78,10 @@ class Carrying {
  private:
   Loop& loop_;
   const Mass& mass_;
+  const motion::Walls<Number>& walls_;
 };
 
-/// The main mass with a loose one that a wall presses: (1 + eps) times as heavy, and drawn by eps y'', too (eq. 71).
+/// The main mass with a loose one that moves with it: (1 + eps) times as heavy, and drawn by eps y'', too (eq. 71).
 /// Its damping is of a class of its own.
 template <class Number, Effects E>
 class CarryingMass {
@@ -113,6 +126,18 @@ template <class Number>
 using HeldConstants =
     motion::ArcConstants<Number, Effects{.damping = Damping::heavy, .forcing = Forcing::regular, .stiffness = true}>;
 
+/// A main mass beside which the loose one slides to a side: friction draws it along.
+template <class Number, Effects E>
+struct Slide {
+  Slide(const MainMass<Number, E>& alone, const BasicScene<Number>& scene, Side towards)
+      : walls(motion::Walls<Number>::of_slide(scene.loose, towards)),
+        mass(motion::drawn(alone.constants(), Number(scene.loose.friction), towards), alone.stops(), scene.friction,
+             alone.start_turns()) {}
+
+  motion::Walls<Number> walls;
+  MainMass<Number, E> mass;
+};
+
 /// The housing of a loose mass, and the main mass that carries it.
 template <class Number, Effects E>
 class Housing {
@@ -120,10 +145,15 @@ class Housing {
   Housing(const MainMass<Number, E>& alone, const BasicScene<Number>& scene)
       : walls(scene.loose),
         carrying(alone, scene),
-        loses(alone.loses() || walls.rule.loses()),
+        loses(alone.loses() || walls.rule.loses() || walls.is_rough()),
         held_{unmoved(alone), unmoved(alone)} {
     held_[1].carried = scene.loose.ratio;
+    if (!walls.is_rough()) return;
+    for (const Side towards : {Side::lower, Side::upper}) slides_.emplace_back(alone, scene, towards);
   }
+
+  /// The main mass beside which a loose one that rubs slides to a side.
+  [[nodiscard]] const Slide<Number, E>& slide(Side towards) const { return slides_[index_of(towards)]; }
 
   /// Those of the main mass alone, and with the loose one, while something holds it.
   [[nodiscard]] const HeldConstants<Number>& held(bool carries) const { return held_[carries ? 1 : 0]; }
@@ -140,6 +170,7 @@ class Housing {
   }
 
   std::array<HeldConstants<Number>, 2> held_;
+  std::vector<Slide<Number, E>> slides_{};  ///< [side]; none if nothing rubs
 };
 /// In place of it without a loose mass.
 struct NoHousing {

@@ -8,6 +8,7 @@
 
 #include "motion/first_crossing.hpp"
 #include "motion/polynomial_arc.hpp"
+#include "motion/polynomial_in_housing.hpp"
 #include "stepping/carrying.hpp"
 
 /// Events on the dense output of a step, for certain: the Bernstein form shows two crossings within a step, too.
@@ -68,6 +69,22 @@ template <Effects Of, std::size_t count>
   }
   first.motion = arc.at(first.elapsed);
   return first;
+}
+
+/// The first instant at which the polynomial of z' of a loose mass that slides to a side falls to 0; else the end of
+/// the step, or the horizon.
+template <Effects Of>
+[[nodiscard]] motion::Crossing<double> end_of_slide(const motion::PolynomialInHousing<Of>& beside, Side towards,
+                                                    double horizon) {
+  motion::Crossing<double> end{1, Side::none, std::min(beside.length(), horizon), {}};
+  Bernstein<double> c = beside.velocity();
+  for (double& w : c) w *= sign_of(towards);
+  c[0] = std::max(c[0], 0.0);
+  if (c[0] == 0) c[1] = std::max(c[1], 0.0);  // let go: friction leads on, but the polynomial's error may not
+  const auto root = FirstRoot<double>::of(c);
+  if (root && *root * beside.length() <= end.elapsed) end.margin = 0, end.elapsed = *root * beside.length();
+  end.motion = beside.at(end.elapsed);
+  return end;
 }
 
 /// The end of a time in which a wall presses: where the polynomial through x'' and its rate leaves the load; else the

@@ -28,8 +28,8 @@ namespace clatter::stepping {
 /// stop, so that the shortest flights keep their digits.
 ///
 /// The flight of a loose mass is its parabola less the dense output of the main mass, which counts from the beginning
-/// of the flight, so that the shortest keep their digits. On that its impacts are found, and on the polynomial of x''
-/// the end of a time for which a wall presses it.
+/// of the flight, so that the shortest keep their digits. On that its impacts are found, on that of z' where friction
+/// stops it, and on the polynomial of x'' the end of a time for which a wall presses it, or friction holds it.
 ///
 /// Each flight and each forcing period begins with a step whose size depends on the state alone: a period is a function
 /// of the state at its beginning, so a motion can repeat.
@@ -106,6 +106,18 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     if (contact.side == Side::none) contact = first_contact(beside, walls, horizon);
     contact.resolved = this->finite(contact.motion.x);
     return contact;
+  }
+  template <Effects Of>
+  [[nodiscard]] motion::Crossing<double> come_to_stop(const motion::PolynomialInHousing<Of>& beside, Side towards,
+                                                      double horizon) {
+    const motion::Motion<double> start = beside.start();
+    const double sign = sign_of(towards),
+                 rate = start.a != 0 ? start.a : -beside.constants().jerk(beside.main().start());
+    const bool at_once = sign * start.v <= 0 && sign * rate < 0;
+    const motion::Crossing<double> end =
+        at_once ? motion::Crossing<double>{0, Side::none, 0.0, start} : end_of_slide(beside, towards, horizon);
+    if (end.margin == 0) reached_ = nowhere;  // friction turns, so that the next step is the first of a flight
+    return end;
   }
   template <Effects Of>
   [[nodiscard]] static motion::Crossing<double> let_go(const motion::PolynomialArc<Of>& main,

@@ -65,18 +65,31 @@ class EventDriven : public IntegratorBase<N, E> {
 
   [[nodiscard]] Method& method() { return static_cast<Method&>(*this); }
   static constexpr bool carries = false;
-  [[nodiscard]] const auto& walls() const requires(E.loose) { return housing_.walls; }
   [[nodiscard]] bool loses() const requires(E.loose) { return housing_.loses; }
   [[nodiscard]] const auto& held_constants(bool with_loose) const requires(E.loose) {
     return housing_.held(with_loose);
   }
+  /// Calls `function(loop)` with that of both masses as one.
+  template <class Function>
+  decltype(auto) as_one(Function&& function) requires(E.loose) {
+    return housing_.carrying.with_mass([&]<class Mass>(const Mass& mass) {
+      WithMass<EventDriven, Mass, true> both(*this, mass, housing_.walls);
+      return function(both);
+    });
+  }
+  /// Calls `function(loop)` with that of a main mass beside which the loose one flies, or slides to a side.
+  template <class Function>
+  decltype(auto) beside(Side towards, Function&& function) requires(E.loose) {
+    using Beside = WithMass<EventDriven, MainMass<N, E>, false>;
+    const bool slides = housing_.walls.is_rough();
+    const MainMass<N, E>& mass = slides ? housing_.slide(towards).mass : static_cast<const MainMass<N, E>&>(*this);
+    Beside loop(*this, mass, slides ? housing_.slide(towards).walls : housing_.walls);
+    return function(loop);
+  }
   /// Runs the mode of both masses as one.
   template <class Stage>
   [[nodiscard]] Outcome run_carrying(Stage& stage) requires(E.loose) {
-    return housing_.carrying.with_mass([&](const auto& mass) {
-      Carrying both(*this, mass);
-      return modes::run_first(both, stage);
-    });
+    return as_one([&](auto& both) { return modes::run_first(both, stage); });
   }
 
   [[nodiscard]] static Outcome outcome_at(const motion::Crossing<Number>& crossing) {
@@ -99,12 +112,27 @@ class EventDriven : public IntegratorBase<N, E> {
   /// Runs the mode that the state is in, up to its event or to the end of the stage.
   template <class Stage>
   [[nodiscard]] Outcome run_mode(Stage& stage) {
-    if constexpr (E.loose) {
-      const motion::LooseState<Number>& loose = stage.state.loose;
-      if (!loose.pressed && modes::lies_pressed(*this, stage.state)) laws::press(*this, stage, loose.wall, Number(0));
-      if (loose.pressed) return run_carrying(stage);
+    if constexpr (E.loose)
+      return run_in_housing(stage);
+    else
+      return modes::run_first(*this, stage);
+  }
+  /// The same with a loose mass, which may begin to move with the main one.
+  template <class Stage>
+  [[nodiscard]] Outcome run_in_housing(Stage& stage) {
+    State& state = stage.state;
+    motion::LooseState<Number>& loose = state.loose;
+    Side towards = Side::none;
+    if (!loose.pressed && housing_.walls.is_rough()) {
+      towards = modes::slides_to(*this, state);
+      if (towards == Side::none) beside(opposite(loose.wall), [&](auto& alone) { laws::stop(alone, stage); });
+    } else if (!loose.pressed) {
+      beside(towards, [&](auto& alone) {
+        if (modes::lies_pressed(alone, state)) laws::press(alone, stage, loose.wall, Number(0));
+      });
     }
-    return modes::run_first(*this, stage);
+    if (loose.pressed) return run_carrying(stage);
+    return beside(towards, [&](auto& alone) { return modes::run_first(alone, stage); });
   }
 
   [[nodiscard]] static Number low_beside(const BasicScene<Number>& scene, Side side,

@@ -2,6 +2,7 @@
 
 #include "motion/arc.hpp"
 #include "motion/pull_rule.hpp"
+#include "motion/slide_rule.hpp"
 #include "stepping/event_driven.hpp"
 
 namespace clatter::stepping {
@@ -85,6 +86,14 @@ class Exact : public EventDriven<Exact<N, E, Search>, N, E> {
     const motion::Crossing<Number> contact = next_contact(beside, walls, horizon);
     this->count_evaluations(contact.evaluations);
     return contact;
+  }
+  /// Where it comes to a stop in its housing, if it slides to a side.
+  template <Effects Of>
+  [[nodiscard]] motion::Crossing<Number> come_to_stop(const motion::RelativeArc<Number, Of>& beside, Side towards,
+                                                      const Number& horizon) {
+    const motion::Crossing<Number> end = end_of_slide(beside, towards, horizon);
+    this->count_evaluations(end.evaluations);
+    return end;
   }
   template <Effects Of>
   [[nodiscard]] motion::Crossing<Number> let_go(const motion::Arc<Number, Of>& main, const Pressing<Number>& pressing,

@@ -48,10 +48,10 @@ class Stage {
           static_cast<double>(state.phase_turns)});
   }
   /// A mass stays where it is: on a stop, or by friction alone. With a loose mass an arc tells so, too.
-  void show_rest(Side side, const Number& turns, bool held, double carried = 0.0) const {
+  void show_rest(Side side, const Number& turns, bool held, double carried = 0.0, double rubbing = 0.0) const {
     const Kind kind = side == Side::none ? Kind::stick : held ? Kind::rest : Kind::chatter;
     show({kind, side, time(), 0.0, static_cast<double>(turns * integrator_.period()), 0.0, static_cast<double>(state.x),
-          0.0, held, Integrator::effects.loose, carried});
+          0.0, held, Integrator::effects.loose, carried, rubbing});
   }
   /// Of a slip, with the accelerations on both sides.
   void show_reversal(const Number& before, const Number& after) const {

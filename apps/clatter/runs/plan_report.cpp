@@ -142,6 +142,8 @@ std::vector<KeyAndNumber> computed_scene(const point::Problem& problem) {
                                {"loose_R_lower", loose.restitution_lower},
                                {"loose_R_upper", loose.restitution_upper},
                                {"loose_load", loose.load},
+                               {"loose_friction", loose.friction},
+                               {"loose_friction_static", loose.friction_static},
                                {"loose_x0", loose.place},
                                {"loose_v0", loose.velocity}});
   scene.insert(scene.end(), {{"x0", problem.start.displacement}, {"v0", problem.start.velocity}});

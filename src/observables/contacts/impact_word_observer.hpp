@@ -28,13 +28,14 @@ class ImpactWord::Observer {
     halfway_ = {m.x, m.v};
   }
   /// The touch of a soft stop has the letter of an impact, and the walls of a loose mass have the letters of stops, or
-  /// small ones beside them.
+  /// small ones beside them. That friction holds it in its housing has none.
   void event(const motion::Event& event) {
     using Kind = motion::Event::Kind;
     const bool has_letter =
         event.lasts() || event.kind == Kind::impact || event.kind == Kind::touch || event.kind == Kind::strike;
     if (event.is_stick()) return stick(event);
     const bool is_of_wall = event.kind == Kind::strike || event.kind == Kind::hold;
+    if (is_of_wall && event.side == Side::none) return;
     if (has_letter) see(event.time, event.side, event.velocity(), tells_walls_ && is_of_wall);
   }
   /// The response has no impacts, and turns into its mirror whenever the force does.

@@ -76,7 +76,7 @@ class Energy::Observer {
  private:
   [[nodiscard]] Values with_loose_mass(const ObservedSpan& span, double x, double v) {
     const LooseEnergy::Ledger ledger = loose_->finish(x, v);
-    Values values{.work_in = ledger.work, .loss_damping = ledger.damped, .loss_friction = 0.0};
+    Values values{.work_in = ledger.work, .loss_damping = ledger.damped, .loss_friction = ledger.rubbed};
     values.loss_impact = ledger.lost, values.impulse = ledger.impulse;
     values.energy_residual = ledger.residual();
     values.impact_power = (ledger.lost[0] + ledger.lost[1]) / span.total;
@@ -86,7 +86,8 @@ class Energy::Observer {
     values.wall_loss_impact = share_->lost(), values.wall_impulse = share_->impulse();
     const double lost = values.wall_loss_impact[0] + values.wall_loss_impact[1];
     if (!span.periodic) values.work_in += share_->work();
-    values.energy_residual += share_->work() - lost - share_->growth();
+    values.loss_friction += share_->rubbed();
+    values.energy_residual += share_->work() - lost - share_->rubbed() - share_->growth();
     values.impact_power += lost / span.total;
   }
   /// A displacement, and as an arc keeps it: its distance from an anchor has more digits beside a soft stop.
@@ -221,9 +222,9 @@ class Energy::Observer {
     }
     return sum;
   }
-  /// With the load of a loose mass that is pressed onto the one at rest.
+  /// With the load of a loose mass that the one at rest carries, or with its friction.
   [[nodiscard]] double constant_force_at(const motion::Event& rest) const {
-    return constant_force(oscillator_, rest.place) + rest.carried * loose_load_;
+    return constant_force(oscillator_, rest.place) + rest.carried * loose_load_ + rest.rubbing;
   }
   [[nodiscard]] double pressing(const motion::Event& rest, double time, double length) const {
     const Oscillator& o = oscillator_;

@@ -14,6 +14,40 @@
 
 namespace clatter::observables {
 
+/// The energy that friction takes from a loose mass that slides to one side beside an arc, per unit of the main mass.
+template <class Flight>
+[[nodiscard]] double rubbed_by(const LooseMass& loose, const Flight& flight, double length) {
+  if (loose.friction == 0) return 0.0;
+  return loose.friction * std::abs(flight.at(length).offset - flight.start().offset);
+}
+/// The impulse of a wall on a loose mass that moves with the main one along an arc, per unit of the main mass. Friction
+/// carries as much of the force as it can, the wall the rest.
+template <class A>
+[[nodiscard]] double impulse_of_wall(const LooseMass& loose, Side wall, const A& main, double length) {
+  const double sign = sign_of(wall), first = main.start().v;
+  if (loose.friction_static == 0) return loose.ratio * std::abs(loose.load * length - (main.at(length).v - first));
+  const auto force = [&](double s) { return sign * loose.ratio * (loose.load - main.at(s).a) - loose.friction_static; };
+  const auto over = [&](double from, double to) {
+    const double gained = main.at(to).v - main.at(from).v;
+    return sign * loose.ratio * (loose.load * (to - from) - gained) - loose.friction_static * (to - from);
+  };
+  const double pieces = std::ceil(8 * length * main.constants().rate) + 1, piece = length / pieces;
+  double sum = 0.0;
+  for (double i = 0; i < pieces; ++i) {
+    double from = i * piece, to = i + 1 < pieces ? from + piece : length;
+    const bool begins = force(from) > 0, ends = force(to) > 0;
+    double low = from, high = to;
+    for (int halves = 0; begins != ends && halves < 60; ++halves) {
+      const double middle = (low + high) / 2;
+      (force(middle) > 0) == begins ? low = middle : high = middle;
+    }
+    if (begins && !ends) to = low;
+    if (!begins && ends) from = high;
+    if (begins || ends) sum += over(from, to);
+  }
+  return sum;
+}
+
 /// The energy ledger of a main mass and a loose one, per unit of the main mass (eq. 74): its energy is
 /// (x'^2 + k x^2 + eps y'^2)/2, in the frame of a base that is shaken, whose inertial forces on both masses do work.
 class LooseEnergy {
@@ -40,16 +74,16 @@ class LooseEnergy {
 
   /// The terms of the ledger, the observed time ending with displacement x and velocity v.
   struct Ledger {
-    double work = 0.0, damped = 0.0, growth = 0.0;
+    double work = 0.0, damped = 0.0, rubbed = 0.0, growth = 0.0;
     std::array<double, 2> lost{}, impulse{};  ///< [wall]
 
-    [[nodiscard]] double residual() const { return work - damped - lost[0] - lost[1] - growth; }
+    [[nodiscard]] double residual() const { return work - damped - rubbed - lost[0] - lost[1] - growth; }
   };
   [[nodiscard]] Ledger finish(double x, double v) {
     see_begin(x, v);
     const double growth = energy(x, v, loose_v_, frame_end()) -
                           (begin_ ? energy(begin_->x, begin_->v, begin_loose_.value_or(0.0), frame_begin()) : 0.0);
-    return {work_, damped_, growth, lost_, impulse_};
+    return {work_, damped_, rubbed_, growth, lost_, impulse_};
   }
   [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
@@ -77,13 +111,13 @@ class LooseEnergy {
       const Frame b = frame_at(sine, cosine, begin + s);
       work_ += weight * loose_.ratio * (loose_.load - b.a) * (loose.velocity(s) - b.v);
     });
-    loose_v_ = loose.velocity(length);
+    loose_v_ = loose.velocity(length), rubbed_ += rubbed_by(loose_, loose, length);
   }
   template <class A>
   void see_loose(const A& main, const motion::Pressed& loose, double, double length) {
     const double first = main.start().v, last = main.at(length).v;
     see_begin_of_loose(first);
-    impulse_[index_of(loose.wall)] += loose_.ratio * std::abs(loose_.load * length - (last - first));
+    if (loose.wall != Side::none) impulse_[index_of(loose.wall)] += impulse_of_wall(loose_, loose.wall, main, length);
     loose_v_ = last;
   }
 
@@ -138,7 +172,7 @@ class LooseEnergy {
   std::optional<Place> begin_{};         ///< of the main mass
   std::optional<double> begin_loose_{};  ///< y'
   double loose_v_ = 0.0;                 ///< y', where it was seen last
-  double work_ = 0.0, damped_ = 0.0, evaluations_ = 0.0;
+  double work_ = 0.0, damped_ = 0.0, rubbed_ = 0.0, evaluations_ = 0.0;
   std::array<double, 2> lost_{}, impulse_{};  ///< [wall]
 };
 
@@ -166,6 +200,7 @@ class LooseShare {
 
   [[nodiscard]] const std::array<double, 2>& lost() const { return lost_; }        ///< [wall]
   [[nodiscard]] const std::array<double, 2>& impulse() const { return impulse_; }  ///< [wall]
+  [[nodiscard]] double rubbed() const { return rubbed_; }                          ///< lost to friction in the housing
   /// Of a period the work is rounding alone.
   [[nodiscard]] double work() const { return loose_.ratio * loose_.load * way_; }
   [[nodiscard]] double growth() const {
@@ -177,13 +212,13 @@ class LooseShare {
   void see(const A&, const Flight& loose, double length) {
     const double from = loose.velocity(0.0);
     if (!begin_) begin_ = from;
-    end_ = loose.velocity(length), way_ += (from + end_) / 2 * length;
+    end_ = loose.velocity(length), way_ += (from + end_) / 2 * length, rubbed_ += rubbed_by(loose_, loose, length);
   }
   template <class A>
   void see(const A& main, const motion::Pressed& loose, double length) {
     const motion::Motion<double>&from = main.start(), to = main.at(length);
     if (!begin_) begin_ = from.v;
-    impulse_[index_of(loose.wall)] += loose_.ratio * std::abs(loose_.load * length - (to.v - from.v));
+    if (loose.wall != Side::none) impulse_[index_of(loose.wall)] += impulse_of_wall(loose_, loose.wall, main, length);
     end_ = to.v, way_ += to.offset - from.offset;
   }
 
@@ -191,6 +226,7 @@ class LooseShare {
   motion::WallRule<double> rule_;
   std::optional<double> begin_{};             ///< y'
   double end_ = 0.0, way_ = 0.0;              ///< y', and by how much y grows
+  double rubbed_ = 0.0;                       ///< the loss by friction in the housing
   std::array<double, 2> lost_{}, impulse_{};  ///< [wall]
 };
 

@@ -9,6 +9,7 @@
 #include "motion/housed_arc.hpp"
 #include "motion/relative_arc.hpp"
 #include "stepping/carrying.hpp"
+#include "stepping/modes/hold.hpp"
 #include "stepping/modes/row.hpp"
 #include "stepping/stage.hpp"
 
@@ -19,27 +20,33 @@ namespace clatter::stepping {
 /// The loose mass flies between the walls of its housing.
 inline constexpr Row flying_row{"flying", "its parabola, beside the mode's", "gaps to both walls", Search::gaps,
                                 "impact of the loose mass, press"};
+/// The loose mass slides on its housing.
+inline constexpr Row sliding_row{"sliding", "its parabola, beside the mode's, both with its friction",
+                                 "gaps to both walls; its velocity in the housing", Search::gaps,
+                                 "impact of the loose mass, press; stick in the housing, reversal"};
 /// A wall presses the loose mass: both move as one until the wall would have to pull.
 inline constexpr Row pressed_row{"pressed", "the mode's, of both masses as one",
                                  "force of the wall, in the acceleration", Search::pull, "release"};
+/// Friction holds the loose mass in its housing: both move as one until the force on it passes the static level.
+inline constexpr Row stuck_row{"stuck", "the mode's, of both masses as one",
+                               "the level of friction to both sides, in the acceleration", Search::pull, "release"};
 
 namespace modes {
 
 /// Runs the first mode of the table that has the state.
 template <class Loop, class Stage>
 [[nodiscard]] Outcome run_first(Loop& loop, Stage& stage);
-/// The acceleration of the main mass in that mode; nothing if something holds it.
-template <class Loop, class State>
-[[nodiscard]] std::optional<typename Loop::Number> acceleration(Loop& loop, const State& state);
 /// Lets a soft stop beyond whose position the mass is begin to push, or cease to, once an impact has changed its speed.
 template <class Loop, class Stage>
 [[nodiscard]] Outcome push_anew(Loop& loop, Stage& stage);
 
-/// The acceleration z'' with which a loose mass is driven into a wall that it is on.
+/// The acceleration z'' with which a loose mass that rebounds from a wall is driven back into it.
 template <class Loop, class State>
 [[nodiscard]] auto into_wall(Loop& loop, Side side, const State& state) {
   using Number = typename Loop::Number;
-  return Number(sign_of(side) * (loop.walls().load - acceleration(loop, state).value_or(Number(0))));
+  return loop.beside(opposite(side), [&](auto& leaving) {
+    return Number(sign_of(side) * (leaving.walls().load - acceleration(leaving, state).value_or(Number(0))));
+  });
 }
 /// Whether it lies on a wall that presses it, or in a housing in which nothing moves.
 template <class Loop, class State>
@@ -121,27 +128,6 @@ void move_loose(const Walls& walls, motion::LooseState<Number>& loose, const mot
     loose.speed += walls.load * contact.elapsed;
   }
 }
-/// Shows the motion of both masses as one.
-template <class Loop, class Stage, class A, class Number>
-void show_as_one(const Loop& loop, const Stage& stage, const A& main, const Number& length) {
-  const Side side = stage.state.loose.wall;
-  const double place = static_cast<double>(loop.walls().place(side));
-  stage.show(motion::HousedArc{main, motion::Pressed{side, place}}, length);
-  stage.show({.kind = Stage::Kind::hold,
-              .side = side,
-              .time = stage.time(),
-              .length = static_cast<double>(length),
-              .place = place,
-              .has_arc = true});
-}
-/// Whether a wall that pressed a loose mass up to an event of the main one no longer does so.
-template <class State, class Number>
-[[nodiscard]] bool parts(State& state, const Number& into) {
-  if (!std::exchange(state.loose.may_part, false) || into > 0) return false;
-  state.loose.pressed = false;
-  return true;
-}
-
 }  // namespace modes
 
 namespace laws {
@@ -169,8 +155,11 @@ void press(const Loop& loop, Stage& stage, Side side, const Number& w) {
 /// An impact on a wall with z' = w (eq. 70), after which that may press the loose mass.
 template <class Loop, class Stage, class Number>
 [[nodiscard]] Outcome strike(Loop& loop, Stage& stage, Side side, const Number& w) {
-  if (!(sign_of(side) * w > 0)) return Outcome::completed;  // it touches
   auto& state = stage.state;
+  if (!(sign_of(side) * w > 0)) {  // it touches
+    if (loop.walls().is_rough()) state.loose.speed = 0;
+    return Outcome::completed;
+  }
   const auto& rule = loop.walls().rule;
   const Number before = state.v, after = rule.law(side).after(w);
   state.v = rule.main_after(state.v, w), state.released = false;
@@ -189,13 +178,21 @@ template <class Loop, class Stage, class Number>
     press(loop, stage, side, after);
   return loop.count_impact() ? Outcome::completed : Outcome::event_budget;
 }
-/// Holds the loose mass past an instant at which the force of its wall is zero to rounding, so its sign decides
+/// A loose mass that has come to a stop in its housing moves with the main one.
+template <class Loop, class Stage>
+void stop(const Loop& loop, Stage& stage) {
+  using Number = typename Loop::Number;
+  motion::LooseState<Number>& loose = stage.state.loose;
+  if (loose.place == 0) return press(loop, stage, loose.wall, Number(0));
+  loose = {loose.wall, loose.place, Number(0), true};
+}
+/// Holds the loose mass past an instant at which the force that lets it go is zero to rounding, so its sign decides
 /// nothing. After sqrt(epsilon) of a period it is clear of rounding.
-template <class Loop, class Stage, class Number>
-[[nodiscard]] Outcome wait_on_wall(Loop& loop, Stage& stage, Side side, const Number& w) {
+template <class Loop, class Stage>
+[[nodiscard]] Outcome keep(Loop& loop, Stage& stage) {
   using std::min, std::sqrt;
+  using Number = typename Loop::Number;
   const Number end = min(stage.end, Number(stage.state.phase_turns + sqrt(epsilon<Number>())));
-  press(loop, stage, side, w);
   stage.state.loose.may_part = false;
   Stage shorter = stage.up_to(end);
   shorter.keeps_pressed = true;
@@ -203,12 +200,50 @@ template <class Loop, class Stage, class Number>
   stage.state.loose.pressed = false;
   return outcome;
 }
+/// The same on a wall, which it meets with z' = w.
+template <class Loop, class Stage, class Number>
+[[nodiscard]] Outcome wait_on_wall(Loop& loop, Stage& stage, Side side, const Number& w) {
+  press(loop, stage, side, w);
+  return keep(loop, stage);
+}
 
 }  // namespace laws
 
 namespace modes {
 
-/// Ends a flight of the main mass beside which the loose one flies: with an event of its own, or where that strikes.
+/// The end of a flight of a loose mass, in which it may also come to a stop by friction.
+template <class Number>
+struct LooseEnd {
+  motion::Crossing<Number> contact;  ///< with a wall, or the end by another event
+  bool stops = false;                ///< friction has stopped it
+  bool is_none = false;              ///< rounding alone tells the flight from none
+};
+template <class Loop, class State, class Beside, class Number>
+[[nodiscard]] LooseEnd<Number> end_of_loose(Loop& loop, const State& state, const Beside& beside,
+                                            const Number& horizon) {
+  const auto& walls = loop.walls();
+  LooseEnd<Number> end{loop.method().meet_wall(beside, walls.places, horizon)};
+  motion::Crossing<Number>& contact = end.contact;
+  const Number w = state.loose.wall == Side::none ? Number(state.loose.speed - state.v) : state.loose.speed;
+  end.is_none = is_lost(loop, state, contact, w);
+  if (!walls.is_rough() || !contact.resolved || end.is_none || contact.elapsed == 0) return end;
+  const motion::Crossing<Number> still = loop.method().come_to_stop(beside, walls.slides_to, contact.elapsed);
+  const bool is_first = still.margin == 0 && (contact.side == Side::none || still.elapsed < contact.elapsed);
+  if (still.resolved && !is_first) return end;
+  contact = still, contact.motion.v = 0;
+  end.stops = true, end.is_none = still.resolved && w == 0 && still.elapsed <= loop.shortest_hop();
+  return end;
+}
+/// Ends a flight that is none: the loose mass stays where it is.
+template <class Loop, class Stage, class Number>
+[[nodiscard]] Outcome wait_in_housing(Loop& loop, Stage& stage, const LooseEnd<Number>& end, const Number& w) {
+  if (!end.stops) return laws::wait_on_wall(loop, stage, end.contact.side, w);
+  laws::stop(loop, stage);
+  return laws::keep(loop, stage);
+}
+
+/// Ends a flight of the main mass beside which the loose one flies: with an event of its own, or where that strikes, or
+/// comes to a stop.
 template <class Mode, class Loop, class Stage, class A, class Flown>
 [[nodiscard]] Outcome end_flying(const Mode& mode, Loop& loop, Stage& stage, const A& main, Flown flown) {
   using Number = typename Loop::Number;
@@ -217,13 +252,15 @@ template <class Mode, class Loop, class Stage, class A, class Flown>
   const auto& walls = loop.walls();
   const auto start = loose_start_of(loop, state);
   const auto beside = loop.method().beside(main, start, walls.load);
-  const motion::Crossing<Number> contact = loop.method().meet_wall(beside, walls.places, flown.crossing.elapsed);
+  const LooseEnd<Number> end = end_of_loose(loop, state, beside, flown.crossing.elapsed);
+  const motion::Crossing<Number>& contact = end.contact;
   if (!contact.resolved) return loop.outcome_at(contact);
-  if (is_lost(loop, state, contact, start.w)) return laws::wait_on_wall(loop, stage, contact.side, start.w);
+  if (end.is_none) return wait_in_housing(loop, stage, end, start.w);
   const bool meets = contact.side != Side::none, together = contact.elapsed == flown.crossing.elapsed;
   const bool is_slower = abs(contact.motion.v) < abs(flown.crossing.motion.v);
   const bool strikes = meets && !(flown.is_event() && together && is_slower);
-  if (strikes || !Loop::effects.stops()) {
+  const bool stops = end.stops && !(flown.is_event() && together);
+  if (strikes || stops || !Loop::effects.stops()) {
     if (!(flown.is_event() && together)) flown.crossing.motion = main.at(contact.elapsed);
     flown.crossing.margin = flown.guards, flown.crossing.side = Side::none, flown.crossing.elapsed = contact.elapsed;
   }
@@ -234,17 +271,17 @@ template <class Mode, class Loop, class Stage, class A, class Flown>
   const Outcome struck = laws::strike(loop, stage, contact.side, contact.motion.v);
   return struck == Outcome::completed ? push_anew(loop, stage) : struck;
 }
-/// Ends a flight of both masses as one: with an event of the main mass, or where the wall would have to pull.
+/// Ends a flight of both masses as one: with an event of the main mass, or where the wall would have to pull, or the
+/// friction to hold more than it can.
 template <class Mode, class Loop, class Stage, class A, class Flown>
 [[nodiscard]] Outcome end_pressed(const Mode& mode, Loop& loop, Stage& stage, const A& main, Flown flown) {
   using Number = typename Loop::Number;
   auto& state = stage.state;
   auto& loose = state.loose;
-  const Pressing<Number> pressing{loose.wall, loop.walls().load};
-  if (parts(state, Number(sign_of(loose.wall) * (pressing.load - flown.start.a)))) return Outcome::completed;
+  if (parts(state, hold_at(loop.walls(), loose, flown.start.a).left)) return Outcome::completed;
   bool releases = false;
   if (!stage.keeps_pressed) {
-    const motion::Crossing<Number> pull = loop.method().let_go(main, pressing, flown.crossing.elapsed);
+    const motion::Crossing<Number> pull = end_of_hold(loop, state, main, flown.crossing.elapsed);
     if (!pull.resolved) return loop.outcome_at(pull);
     releases = pull.margin == 0 && !(flown.is_event() && pull.elapsed == flown.crossing.elapsed);
     if (releases || !Loop::effects.stops()) flown.crossing = {flown.guards, Side::none, pull.elapsed, pull.motion};
@@ -269,7 +306,7 @@ template <class Loop, class Stage, class Number>
   const Number length = (until - state.phase_turns) * loop.period();
   const auto main = loop.method().held_arc(constants, state, loop.motion(constants, state), loop.anchor(state), length);
   if constexpr (Loop::carries) {
-    if (sign_of(state.loose.wall) * walls.load < 0 && parts(state, Number(0))) return Outcome::completed;
+    if (hold_at(walls, state.loose, Number(0)).left < 0 && parts(state, Number(0))) return Outcome::completed;
     stage.show_rest(side, Number(until - state.phase_turns), held, static_cast<double>(constants.carried));
     show_as_one(loop, stage, main, length);
     state.phase_turns = until;
@@ -277,10 +314,12 @@ template <class Loop, class Stage, class Number>
   } else {
     const auto start = loose_start_of(loop, state);
     const auto beside = loop.method().beside(main, start, walls.load);
-    const motion::Crossing<Number> contact = loop.method().meet_wall(beside, walls.places, length);
+    const LooseEnd<Number> end = end_of_loose(loop, state, beside, length);
+    const motion::Crossing<Number>& contact = end.contact;
     if (!contact.resolved) return loop.outcome_at(contact);
-    if (is_lost(loop, state, contact, start.w)) return laws::wait_on_wall(loop, stage, contact.side, start.w);
-    stage.show_rest(side, Number(contact.elapsed / loop.period()), held);
+    if (end.is_none) return wait_in_housing(loop, stage, end, start.w);
+    stage.show_rest(side, Number(contact.elapsed / loop.period()), held, 0.0,
+                    static_cast<double>(loop.constants().rubbing));
     stage.show(motion::HousedArc{main, beside}, contact.elapsed);
     move_loose(walls, state.loose, contact);
     if (contact.elapsed == length)

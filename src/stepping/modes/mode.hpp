@@ -27,13 +27,15 @@ template <class Mode, class Loop, class Constants, class State>
   Number released(0);
   if constexpr (requires { mode.release_acceleration(); }) {
     released = mode.release_acceleration();
-    if constexpr (Loop::effects.loose && !Loop::carries)
-      if (state.loose.wall != Side::none && state.loose.place == 0 && state.loose.speed == 0)
+    if constexpr (Loop::effects.loose && !Loop::carries) {
+      const bool moved_with = state.loose.place == 0 || loop.walls().is_rough();
+      if (state.loose.wall != Side::none && moved_with && state.loose.speed == 0)
         released -= loop.walls().rule.ratio * loop.walls().load;  // both were let go, and the loose one falls behind
+    }
   }
   auto start = loop.motion(constants, state, released);
   if constexpr (Loop::effects.loose)
-    if (state.loose.released) start.a = loop.walls().load;  // z'' = 0 there
+    if (state.loose.released) start.a = loop.walls().load + loop.walls().jump;  // without friction z'' = 0 there
   return start;
 }
 
