@@ -6,12 +6,12 @@ namespace verify {
 
 /// The mass moves to the side of a positive velocity; without one friction holds it, or lets it go where it is pushed.
 void Motion::begin_rough(const Start& start) {
-  const Vector hull = set_.hull();
+  const Ball v = set_.hull()[1];
   still_for_ = 0;
   if (resting_ || hits_at_start_) return;
-  if (hull.y.is_positive() || hull.y.is_negative()) {
-    heading_ = hull.y.is_positive() ? 1 : -1;
-  } else if (hull.y.is_zero()) {
+  if (v.is_positive() || v.is_negative()) {
+    heading_ = v.is_positive() ? 1 : -1;
+  } else if (v.is_zero()) {
     become_still(start.time);
     const int way = way_of_push();
     if (way == 0) sticks_ = true;
@@ -23,9 +23,12 @@ void Motion::begin_rough(const Start& start) {
 
 /// Describes a mass without speed by the time and its place.
 void Motion::become_still(const Ball& time) {
-  const Vector centre = set_.centre();
-  set_.move({time, centre.x}, {Ball(0), Ball(0), Ball(1), Ball(0)}, {Ball(0), Ball(0)});
-  on_surface_ = still_ = true;
+  Four there = set_.centre();
+  there[1] = time;
+  FourByFour derivative = FourByFour::identity();
+  derivative[1][1] = Ball(0);
+  set_.move(there, derivative);
+  surface_ = 1;
 }
 
 /// The spring and the constant force that act on a still mass, those of a soft stop included.
@@ -37,44 +40,35 @@ Motion::Spring Motion::spring() const {
 
 /// The side to which a still mass is let go, +1 or -1; 0: friction holds it.
 int Motion::way_of_push() const {
-  const Vector hull = set_.hull();
+  const Four hull = set_.hull();
   const Spring acting = spring();
-  const Ball sine = sin_cos(scene_.nu * hull.x + scene_.phase).first;
-  const Ball push = scene_.f * sine + acting.load - acting.k * hull.y;
+  const Ball sine = sin_cos(scene_.nu * hull[1] + scene_.phase).first;
+  const Ball push = scene_.f * sine + acting.load - acting.k * hull[0];
   if (push > scene_.friction_static) return 1;
   if (push < -scene_.friction_static) return -1;
   if (!(abs(push) < scene_.friction_static)) throw Undecided("whether friction holds the mass");
   return 0;
 }
 
-/// The velocity falls to 0: the mass turns back at once, or sticks.
-Event Motion::stop_moving(const Flow::Flight& all, const Ball& instant, const Margin& margin, const Ball& end) {
-  const State centre = state_of(set_.centre());
-  const Flow::Flight middle(flow(), centre.time, centre.x, centre.v);
-  const Ball middle_instant = instant_of(middle, margin, instant);
-  const Flow::Instant image = middle.at(middle_instant), there = all.at(instant);
-  const Matrix out{Ball(0), Ball(-1) / there.a, Ball(1), Ball(0)};
-  set_.move({centre.time + middle_instant, image.x}, out * all.derivative(instant) * into_flight(all.at(Ball(0))),
-            {Ball(0), Ball(0)});
-  on_surface_ = still_ = true, vanishing_ = 0;
-  const Vector hull = set_.hull();
-  if (!hull.x.is_finite() || !hull.y.is_finite()) throw Undecided("an event whose bounds are lost");
+/// The velocity has fallen to 0: the mass turns back at once, or sticks.
+Event Motion::stop_moving(const Ball& end) {
+  const Four hull = set_.hull();
   const int way = way_of_push();
   if (way == 0) return stay(end);
   if (way == heading_) throw Undecided("whether the motion stops at all");
   heading_ = way, still_for_ = 1;
-  Event event{Kind::reversal, Side::lower, hull.x, Ball(0), Ball(0)};
-  event.x = hull.y;
+  Event event{Kind::reversal, Side::lower, hull[1], Ball(0), Ball(0)};
+  event.x = hull[0];
   return event;
 }
 
 /// Friction holds the mass up to the phase at which the force passes its level (eqs. 26 and 65), or to a time.
 Event Motion::stay(const Ball& end) {
-  const Vector hull = set_.hull();
+  const Four hull = set_.hull();
   const Spring acting = spring();
-  Event event{Kind::stick, Side::lower, hull.x, Ball(0), end};
-  event.x = hull.y;
-  other_places_.push_back(hull.y);
+  Event event{Kind::stick, Side::lower, hull[1], Ball(0), end};
+  event.x = hull[0];
+  other_places_.push_back(hull[0]);
   sticks_ = false;
   struct Release {
     int way;
@@ -91,25 +85,28 @@ Event Motion::stay(const Ball& end) {
     const Ball whole = Ball(turns) * Ball(2) * Ball::pi();
     return Release{way, (theta + whole - scene_.phase) / scene_.nu, acting.k / (scene_.f * scene_.nu * cosine)};
   };
-  const auto up = release(1, hull.x, hull.y), down = release(-1, hull.x, hull.y);
+  const auto up = release(1, hull[1], hull[0]), down = release(-1, hull[1], hull[0]);
   auto first = up ? up : down;
   if (up && down) {
     if (!(up->time < down->time) && !(down->time < up->time)) throw Undecided("to which side friction lets go");
     first = up->time < down->time ? up : down;
   }
+  Four there = set_.centre();
+  FourByFour derivative = FourByFour::identity();
+  derivative[1][1] = Ball(0);
   if (!first || first->time > end) {
-    const Vector centre = set_.centre();
-    set_.move({centre.y, Ball(0)}, {Ball(0), Ball(1), Ball(0), Ball(0)}, {Ball(0), Ball(0)});
-    on_surface_ = still_ = false, time_ = end, sticks_ = at_end_ = true;
+    there[1] = Ball(0);
+    set_.move(there, derivative);
+    surface_.reset(), time_ = end, sticks_ = at_end_ = true;
     return event;
   }
   if (!(first->time < end)) throw Undecided("whether friction lets the mass go before the end");
-  const Vector centre = set_.centre();
-  const auto of_centre = release(first->way, centre.x, centre.y);
+  const auto of_centre = release(first->way, there[1], there[0]);
   if (!of_centre) throw Undecided("when friction lets the mass go");
-  set_.move({of_centre->time, centre.y}, {Ball(0), first->slope, Ball(0), Ball(1)}, {Ball(0), Ball(0)});
+  there[1] = of_centre->time, derivative[1][0] = first->slope;
+  set_.move(there, derivative);
   heading_ = first->way, still_for_ = scene_.is_let_go_gently ? 2 : 1;
-  event.until = set_.hull().x;
+  event.until = set_.hull()[1];
   return event;
 }
 

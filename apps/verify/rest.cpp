@@ -32,8 +32,8 @@ void Motion::release(Side side, const Ball& after, bool nearest) {
     const MovingScene& scene = family_->scene;
     time_ = time_of_phase(scene, phase_of_release(scene, side), turns_), slope = scene.stop(side).position.slope;
   }
-  set_.collapse({scene_.stop(side).position, Ball(0)}, {slope, Ball(0)});
-  on_surface_ = still_ = false, resting_ = false;
+  set_.collapse({{scene_.stop(side).position, Ball(0), Ball(0), Ball(0)}}, {{slope, Ball(0), Ball(0), Ball(0)}});
+  surface_.reset(), resting_ = false;
   begin(Mode::free, side, 3);
   if (!scene_.is_rough()) return;
   heading_ = -sign_of(side);
@@ -44,6 +44,7 @@ void Motion::release(Side side, const Ball& after, bool nearest) {
 void Motion::rebound(Side side, const Ball& time) {
   heading_ = scene_.is_rough() ? -sign_of(side) : 0, still_for_ = 0;
   if (!scene_.stop(side).R.is_zero()) return begin(Mode::free, side, 1);
+  if (scene_.loose) throw Undecided("an impact without a rebound beside a loose mass");
   const Ball press = scene_.pressing(side, sin_cos(scene_.nu * time + scene_.phase).first) + scene_.friction_static;
   if (press.is_negative()) {
     if (scene_.is_rough()) still_for_ = 1;
@@ -86,16 +87,18 @@ Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) co
   return {Ball::hull(flight_in(most) / (Ball(1) - quickest), lasts), height};
 }
 
-Event Motion::finish_chatter(const ChatterAim& aim) {
+Event Motion::finish_chatter_on_stop(const ChatterAim& aim) {
+  if (scene_.loose) throw Undecided("a chatter of the main mass beside a loose one");
   const Side side = side_;
   const Ball begin_time = state_of(set_.hull()).time;
-  if (mode_ != Mode::free || !on_surface_ || vanishing_ != 1) return next(aim.end);  // it begins with an impact
+  if (mode_ != Mode::free || surface_ != std::size_t{0} || vanishing_ != 1)
+    return next(aim.end);    // it begins with an impact
   bool rebounds_now = true;  // else it turns back at its peak, by friction
   for (int impacts = 0; impacts < 4000; ++impacts) {
     const State state = state_of(set_.hull());
     std::optional<Rebounds> left;
     try {
-      if (rebounds_now) left = rebounds(side, state.time, abs(state.v));
+      if (rebounds_now) left = rebounds(side, state.time, abs(state.y[1]));
     } catch (const Undecided&) {
       if (impacts > 1000) throw;
     }
@@ -117,7 +120,7 @@ Event Motion::finish_chatter(const ChatterAim& aim) {
   throw Undecided("the end of a chatter");
 }
 
-Event Motion::finish_rest(const Ball& end) {
+Event Motion::finish_rest_on_stop(const Ball& end) {
   if (!resting_) throw Undecided("whether the mass rests");
   Event event{Kind::rest, side_, rest_begin_, Ball(0), end};
   const Side side = side_;
@@ -126,8 +129,8 @@ Event Motion::finish_rest(const Ball& end) {
   const Ball least =
       Ball(sign_of(side)) * (scene_.load - scene_.k * stop.position) + scene_.friction_static - abs(scene_.f);
   if (least.is_positive()) {  // for ever
-    set_.collapse({stop.position, Ball(0)}, {Ball(0), Ball(0)});
-    time_ = end, on_surface_ = false, at_end_ = true;
+    set_.collapse({{stop.position, Ball(0), Ball(0), Ball(0)}}, Four::zero());
+    time_ = end, surface_.reset(), at_end_ = true;
     return event;
   }
   release(side, rest_begin_, false);

@@ -13,11 +13,37 @@ namespace clatter::certificates {
 using point::PointResult;
 using point::Problem;
 
+namespace {
+
+/// The verifier follows no main mass that a stop holds beside a loose one.
+Without kept_from_claim(const RecordedMotion<4>& motion) {
+  const bool rests =
+      std::ranges::any_of(motion.events, [](const RecordedEvent<4>& event) { return event.lasts() && !event.of_wall; });
+  return rests ? Without::resting_main : Without::none;
+}
+
+/// The order of two events within rounding of each other isn't known.
+void drop_if_at_one_instant(CertifiedPoint& point) {
+  if (!point.certificate) return;
+  const auto is_instant = [](const ClaimedEvent& event) {
+    return event.kind != motion::Event::Kind::rest && event.kind != motion::Event::Kind::chatter;
+  };
+  const auto meet = [&](const ClaimedEvent& one, const ClaimedEvent& other) {
+    return !(one.of_wall && other.of_wall) && is_instant(one) && is_instant(other) &&
+           other.time.value - one.time.value <= one.time.error + other.time.error;
+  };
+  if (std::ranges::adjacent_find(point.certificate->events, meet) == point.certificate->events.end()) return;
+  point.without = Without::one_instant, point.certificate.reset();
+}
+
+}  // namespace
+
 void certify_transient_in_housing(const Problem& problem, const PointResult& result, CertifiedPoint& point) {
   auto motion = recorded_in_housing(problem, problem.time.duration / period_of(problem.oscillator));
-  point.without = Without::rounding;
-  if (!motion) return;
+  point.without = motion ? kept_from_claim(*motion) : Without::rounding;
+  if (point.without != Without::none) return;
   certify_run<HousingBounds>(problem, std::move(*motion), result, point);
+  drop_if_at_one_instant(point);
 }
 
 namespace {
@@ -64,6 +90,10 @@ void certify_periodic_in_housing(const Problem& problem, const PointResult& resu
   const Problem section = in_housing_from(problem, from, end.phase);
   const auto whole = recorded_in_housing(section, result.observed_turns);
   if (!whole) return;
+  if (const Without kept = kept_from_claim(*whole); kept != Without::none) {
+    point.without = kept;
+    return;
+  }
   if (whole->events.empty()) {  // wherever the loose mass stands, or drifts to and fro
     point.without = Without::family;
     return;
@@ -82,6 +112,7 @@ void certify_periodic_in_housing(const Problem& problem, const PointResult& resu
                                   certificate.pressed = start->pressed_by;
                                   certificate.period->multipliers = bounds.claimed_multipliers(*motion, result);
                                 });
+  drop_if_at_one_instant(point);
 }
 
 }  // namespace clatter::certificates

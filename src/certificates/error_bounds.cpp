@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/soft_stop.hpp"
-
 namespace clatter::certificates {
 namespace {
 
@@ -25,9 +23,7 @@ ErrorBounds::ErrorBounds(const point::Problem& problem, const RecordedMotion<2>&
     : Bounds(problem, motion, time,
              std::max({std::abs(result.x_min), std::abs(result.x_max), result.x_max - result.x_min,
                        std::abs(result.v_min), std::abs(result.v_max)}),
-             periodic ? norm_of_return(motion.derivative) : 0.0),
-      friction_(problem.friction),
-      stops_(problem.stops) {}
+             periodic ? norm_of_return(motion.derivative) : 0.0) {}
 
 ErrorBounds::StateError ErrorBounds::error_after(const Map& derivative, const Sizes& rounding, double path) const {
   const double last = of_arithmetic * std::min(size_, path), before = of_arithmetic * size_;
@@ -37,41 +33,14 @@ ErrorBounds::StateError ErrorBounds::error_after(const Map& derivative, const Si
   return {of(0), of(1)};
 }
 
-/// The displacement at an event: where the force of a soft stop is 0, x - position + q v = 0.
-double ErrorBounds::place_of(const RecordedEvent<2>& event) const {
-  if (event.side == Side::none) return event.place;
-  const double position = event.side == Side::upper ? stops_.upper : stops_.lower;
-  if (event.kind != Kind::separation && event.kind != Kind::renewal) return position;
-  return position - motion::soft_stop_at<double>(stops_, event.side).relaxation() * event.velocity();
-}
-/// The acceleration before an event, at which no soft stop pushes.
-double ErrorBounds::acceleration(const RecordedEvent<2>& event) const {
-  return oscillator_.forcing * std::sin(oscillator_.frequency * event.time + phase_) +
-         constant_force(oscillator_, place_of(event)) - 2 * oscillator_.damping * event.velocity() -
-         (event.velocity() > 0   ? friction_.kinetic
-          : event.velocity() < 0 ? -friction_.kinetic
-                                 : 0.0);
-}
-
 ClaimedEvent ErrorBounds::claimed(const RecordedEvent<2>& event, const ClaimedEvent* before) const {
   if (event.side == Side::none) return claimed_turn(event);
   if (event.lasts()) return claimed_stay(event, before);
   const bool after_rest = before != nullptr && (before->kind == Kind::rest || before->kind == Kind::stick);
-  return claimed_contact(
-      event, before == nullptr ? event.time : begin_ + event.time - (after_rest ? before->then : before->time).value);
-}
-
-/// The instant at which x, or x + q v where the force of a soft stop passes 0, reaches a place.
-ClaimedEvent ErrorBounds::claimed_contact(const RecordedEvent<2>& event, double since) const {
+  const double since =
+      before == nullptr ? event.time : begin_ + event.time - (after_rest ? before->then : before->time).value;
   const StateError error = error_after(event.derivative, event.rounding, size_ * since);
-  const double a = acceleration(event);
-  double off = error.x, rate = std::abs(event.velocity());
-  if (event.kind == Kind::separation || event.kind == Kind::renewal) {
-    const double q = motion::soft_stop_at<double>(stops_, event.side).relaxation();
-    off += q * error.v, rate = std::abs(event.velocity() + q * a);
-  }
-  const double late = off / rate + time_error(event.time);
-  return {event.kind, event.side, {begin_ + event.time, late}, {event.velocity(), error.v + std::abs(a) * late}};
+  return claimed_contact(event, error.x, error.v, acceleration_at(event.time, place_of(event), event.velocity()));
 }
 
 ClaimedEvent ErrorBounds::claimed_stay(const RecordedEvent<2>& event, const ClaimedEvent* before) const {
@@ -103,7 +72,8 @@ double ErrorBounds::chatter_error(const RecordedEvent<2>& event, const ClaimedEv
   const double R = restitution_at<double>(stops_, event.side).share_at_rest();
   double error = of_chatter * event.length + time_error(event.end());
   if (before == nullptr) return error;
-  const double push = std::abs(acceleration(event)), up = push + friction_.kinetic, down = push - friction_.kinetic;
+  const double push = std::abs(acceleration_at(event.time, place_of(event), event.velocity())),
+               up = push + friction_.kinetic, down = push - friction_.kinetic;
   const double flights = (1 / up + 1 / std::sqrt(up * down)) / (1 - R * std::sqrt(down / up));
   return error + before->time.error + R * flights * before->then.error;
 }

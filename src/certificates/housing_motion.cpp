@@ -34,7 +34,8 @@ std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, G
     const motion::Event& event = recorder.events[i];
     growth.pass(in_housing(recorder.loose_derivatives[i]), std::min(1.0, event.end() - since));
     since = event.end();
-    const bool goes_on = event.kind == Kind::rest && !events.empty() && events.back().kind == Kind::rest &&
+    const bool goes_on = event.kind == Kind::rest && event.of_wall && !events.empty() &&
+                         events.back().kind == Kind::rest && events.back().of_wall &&
                          events.back().side == event.side &&
                          event.time - events.back().end() <= same_time * (1 + event.time);
     RecordedEvent<4> recorded{event, growth.derivative(), growth.rounding()};
@@ -60,8 +61,8 @@ std::vector<RecordedEvent<4>> with_chatters(std::vector<RecordedEvent<4>> events
   for (const RecordedEvent<4>& event : events) {
     std::size_t first = list.size();
     double fastest = 0.0;
-    while (event.kind == Kind::rest && first > 0 && list[first - 1].kind == Kind::impact &&
-           list[first - 1].side == event.side)
+    while (event.kind == Kind::rest && event.of_wall && first > 0 && list[first - 1].kind == Kind::impact &&
+           list[first - 1].of_wall && list[first - 1].side == event.side)
       fastest = std::max(fastest, list[--first].speed());
     std::size_t last = first;
     while (last < list.size() && !(std::abs(list[last].after) < slow * fastest)) ++last;

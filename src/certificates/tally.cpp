@@ -19,8 +19,10 @@ std::string reason_of(const CertifiedPoint& point) {
       return "one of a family";
     case Without::cut_chatter:
       return "cut within a chatter";
-    case Without::both_masses:
-      return "with events of both masses";
+    case Without::resting_main:
+      return "beside a loose mass at rest or under friction";
+    case Without::one_instant:
+      return "with two events at one instant";
     case Without::no_such_claim:
       return "special without a claim of its kind";
     case Without::rounding:
