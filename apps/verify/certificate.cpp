@@ -62,7 +62,7 @@ Certificate::SceneNumbers scene_of(const Field& field) {
   return scene;
 }
 
-/// Of a loose mass an event has a `wall`, beside a main mass without stops also named `stop`.
+/// Walls are named as such beside stops; else they stand in the place of these.
 ClaimedEvent event_of(const Field& field, const Certificate::SceneNumbers& scene) {
   ClaimedEvent event;
   const Field kind = field.get("event");
@@ -80,7 +80,7 @@ ClaimedEvent event_of(const Field& field, const Certificate::SceneNumbers& scene
     if (event.kind == Kind::stick) event.until = field.get("until").claimed();
     return event;
   }
-  const auto wall = field.find("wall");
+  const auto wall = scene.loose && scene.has_stops() ? field.find("wall") : std::nullopt;
   event.of_wall = wall || (scene.loose && !scene.has_stops());
   event.side = wall ? wall->side() : field.get("stop").side();
   if (event.kind == Kind::chatter || holds(event.kind))
@@ -95,8 +95,8 @@ void require_wall(const Field& field, const Certificate::SceneNumbers& scene, co
   if (event.kind != Kind::impact && event.kind != Kind::chatter && event.kind != Kind::press)
     field.refuse(std::string("is a ") + name_of(event.kind) + " beside a loose mass",
                  "write impact, chatter or press of a wall");
-  if (!scene.loose || !scene.loose->walls[index_of(event.side)])
-    field.refuse("is an event of a wall", "the scene has no loose mass with a wall there");
+  if (!scene.loose->walls[index_of(event.side)])
+    field.refuse("is an event of a wall", "the housing has none there");
 }
 
 /// One of the main mass must be one of a stop that there is, of its kind.

@@ -29,19 +29,30 @@ def rests(certificate):
     return [i for i, event in enumerate(certificate["events"]) if event["event"] in ("rest", "press")]
 
 
-def holder_of_R(scene, stop):
+def place_name(event):
+    """Of a wall beside stops that is "wall"."""
+    return "wall" if "wall" in event else "stop"
+
+
+def is_of_wall(certificate, event):
+    return "wall" in event or ("loose" in certificate["scene"] and event.get("stop") not in certificate["scene"])
+
+
+def holder_of_R(scene, event):
     """The object that has the restitution of a rigid stop, of a wall of a loose mass, or of both walls."""
-    housing = scene.get("loose", {})
-    return housing if "R" in housing else (housing or scene).get(stop, {})
+    side, housing = event.get(place_name(event)), scene.get("loose", {})
+    if "wall" not in event and side in scene:
+        return scene[side]
+    return housing if "R" in housing else housing.get(side, {})
 
 
 def restitution(certificate, event):
     """That of a rigid stop, or of a wall of a loose mass."""
-    return holder_of_R(certificate["scene"], event["stop"])["R"]
+    return holder_of_R(certificate["scene"], event)["R"]
 
 
-def rest_name(certificate):
-    return "press" if "loose" in certificate["scene"] else "rest"
+def rest_name(certificate, event):
+    return "press" if is_of_wall(certificate, event) else "rest"
 
 
 def wrong_speed(certificate):
@@ -69,14 +80,38 @@ def contact_put_in(certificate):
 
 
 def wrong_stop(certificate):
-    scene = certificate["scene"]
-    housing = scene.get("loose", scene)
-    if not ("lower" in housing and "upper" in housing) or ("R" in housing["lower"]) != ("R" in housing["upper"]):
-        return None
-    for index in contacts(certificate)[:1]:
-        event = certificate["events"][index]
-        event["stop"] = {"lower": "upper", "upper": "lower"}[event["stop"]]
+    for event in (certificate["events"][index] for index in contacts(certificate)[:1]):
+        scene = certificate["scene"]
+        of = scene["loose"] if is_of_wall(certificate, event) else scene
+        if not ("lower" in of and "upper" in of) or ("R" in of["lower"]) != ("R" in of["upper"]):
+            return None
+        name = place_name(event)
+        event[name] = {"lower": "upper", "upper": "lower"}[event[name]]
         return certificate
+
+
+def wall_for_stop(certificate):
+    """An event of one mass is claimed as one of the other."""
+    for event in certificate["events"]:
+        name, speed = place_name(event), speed_in(event)
+        scene = certificate["scene"]
+        if event["event"] != "impact" or "loose" not in scene or not ({"lower", "upper"} & scene.keys()):
+            continue
+        of, other = (scene, ("stop", "v")) if name == "wall" else (scene["loose"], ("wall", "w"))
+        if "stiffness" not in of.get(event[name], {"stiffness": 1}):
+            event[other[0]], event[other[1]] = event.pop(name), event.pop(speed)
+            return certificate
+
+
+def events_exchanged(certificate):
+    """One of each mass, without their times."""
+    events = certificate["events"]
+    for one, other in zip(events, events[1:]):
+        if {place_name(one), place_name(other)} == {"stop", "wall"} and speed_in(one) and speed_in(other):
+            one["time"], other["time"] = other["time"], one["time"]
+            at = events.index(one)
+            events[at], events[at + 1] = other, one
+            return certificate
 
 
 def twice_the_period(certificate):
@@ -112,8 +147,11 @@ def rest_that_is_none(certificate):
             until = [event["time"][0] + 1e-3, 1e-9]
             if restitution(certificate, event) == 0:  # it would rest at once
                 continue
-            chatter = {"event": "chatter", "stop": event["stop"], "time": event["time"], "until": until}
-            rest = {**chatter, "event": rest_name(certificate), "time": until, "until": [until[0] + 0.5, 1e-9]}
+            name = place_name(event)
+            if rest_name(certificate, event) == "rest" and "loose" in certificate["scene"]:
+                continue  # of which there is no claim
+            chatter = {"event": "chatter", name: event[name], "time": event["time"], "until": until}
+            rest = {**chatter, "event": rest_name(certificate, event), "time": until, "until": [until[0] + 0.5, 1e-9]}
             certificate["events"][index + 1 :] = [chatter, rest]
             return certificate
 
@@ -123,9 +161,10 @@ def rest_where_the_force_pulls(certificate):
     events = certificate["events"]
     for index, event in enumerate(events):
         if event["event"] == "impact" and restitution(certificate, event) == 0:
-            if index + 1 == len(events) or events[index + 1]["event"] != rest_name(certificate):
+            kind, name = rest_name(certificate, event), place_name(event)
+            if index + 1 == len(events) or events[index + 1]["event"] != kind:
                 until = [event["time"][0] + 0.5, 1e-9]
-                rest = {"event": rest_name(certificate), "stop": event["stop"], "time": event["time"], "until": until}
+                rest = {"event": kind, name: event[name], "time": event["time"], "until": until}
                 events.insert(index + 1, rest)
                 return certificate
 
@@ -226,7 +265,7 @@ def wrong_restitution(certificate):
         return None
     for event in certificate["events"]:
         if event["event"] == "impact":
-            of = holder_of_R(certificate["scene"], event["stop"])
+            of = holder_of_R(certificate["scene"], event)
             of["R"] = of["R"] * 0.999 + 1e-4
             return certificate
 
@@ -300,6 +339,8 @@ FORGERIES = [
     contact_left_out,
     contact_put_in,
     wrong_stop,
+    wall_for_stop,
+    events_exchanged,
     twice_the_period,
     wrong_multiplier,
     rest_that_is_none,
