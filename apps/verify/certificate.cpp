@@ -22,10 +22,8 @@ std::optional<Certificate::StopNumbers> stop_of(const Field& scene, const char* 
   return stop;
 }
 
-/// A loose mass and the walls of its housing, in place of stops and friction.
-Certificate::LooseNumbers loose_of(const Field& scene, const Field& field) {
-  for (const char* const name : {"lower", "upper", "friction", "friction_static"})
-    if (const auto other = scene.find(name)) other->refuse("is given beside a loose mass", "leave it out");
+/// A loose mass and the walls of its housing.
+Certificate::LooseNumbers loose_of(const Field& field) {
   Certificate::LooseNumbers loose{
       field.get("mass").number_from(0, Field::infinity, false), {}, field.get("load").number(), {}};
   const auto both = field.find("R");
@@ -58,11 +56,12 @@ Certificate::SceneNumbers scene_of(const Field& field) {
   }
   if (scene.stops[0] && scene.stops[1] && !(scene.stops[0]->position < scene.stops[1]->position))
     field.refuse("has its lower stop above the upper one", "exchange them");
-  if (const auto loose = field.find("loose")) scene.loose = loose_of(field, *loose);
+  if (const auto loose = field.find("loose")) scene.loose = loose_of(*loose);
   return scene;
 }
 
-ClaimedEvent event_of(const Field& field, bool has_loose_mass) {
+/// Walls are named as such beside stops; else they stand in the place of these.
+ClaimedEvent event_of(const Field& field, const Certificate::SceneNumbers& scene) {
   ClaimedEvent event;
   const Field kind = field.get("event");
   const std::string name = kind.text();
@@ -79,63 +78,69 @@ ClaimedEvent event_of(const Field& field, bool has_loose_mass) {
     if (event.kind == Kind::stick) event.until = field.get("until").claimed();
     return event;
   }
-  event.side = field.get("stop").side();
+  const auto wall = scene.loose && scene.has_stops() ? field.find("wall") : std::nullopt;
+  event.of_wall = wall || (scene.loose && !scene.has_stops());
+  event.side = wall ? wall->side() : field.get("stop").side();
   if (event.kind == Kind::chatter || holds(event.kind))
     event.until = field.get("until").claimed();
   else if (event.kind != Kind::graze)
-    event.v = field.get(has_loose_mass ? "w" : "v").claimed();
+    event.v = field.get(event.of_wall ? "w" : "v").claimed();
   return event;
 }
 
-/// With a loose mass each event must be one on a wall that there is.
-void require_walls(const Field& field, const Certificate& certificate) {
-  const auto& events = certificate.events;
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    const Kind kind = events[i].kind;
-    if (kind != Kind::impact && kind != Kind::chatter && kind != Kind::press)
-      field.items()[i].refuse(std::string("is a ") + name_of(kind) + " beside a loose mass",
-                              "write impact, chatter or press");
-    if (!certificate.scene.loose->walls[index_of(events[i].side)])
-      field.items()[i].refuse("is an event of a wall", "the housing has none there");
-  }
+/// An event of a loose mass must be one on a wall that there is.
+void require_wall(const Field& field, const Certificate::SceneNumbers& scene, const ClaimedEvent& event) {
+  if (event.kind != Kind::impact && event.kind != Kind::chatter && event.kind != Kind::press)
+    field.refuse(std::string("is a ") + name_of(event.kind) + " beside a loose mass",
+                 "write impact, chatter or press of a wall");
+  if (!scene.loose->walls[index_of(event.side)]) field.refuse("is an event of a wall", "the housing has none there");
 }
 
-/// Each event must be one of a stop that there is, of its kind.
-void require_stops(const Field& field, const Certificate& certificate) {
-  const auto& events = certificate.events;
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    if (events[i].kind == Kind::press) field.items()[i].refuse("is a press", "the scene has no loose mass; give it");
-    if (is_of_friction(events[i].kind)) {
-      if (!certificate.scene.friction_static.ball().is_zero()) continue;
-      field.items()[i].refuse("is an event of dry friction", "the scene has none; give its friction");
-    }
-    const auto& stop = certificate.scene.stops[index_of(events[i].side)];
-    const bool of_rigid =
-        events[i].kind == Kind::impact || events[i].kind == Kind::chatter || events[i].kind == Kind::rest;
-    if (events[i].kind == Kind::graze && !certificate.special)
-      field.items()[i].refuse("is a graze",
-                              "only special points have one; give its time and velocity as an impact or touch");
-    if (stop && events[i].kind == Kind::graze) continue;
-    if (!stop || stop->soft == of_rigid)
-      field.items()[i].refuse(std::string("is an event of a ") + (of_rigid ? "rigid" : "soft") + " stop",
-                              "the scene has none there");
+/// One of the main mass must be one of a stop that there is, of its kind.
+void require_stop(const Field& field, const Certificate& certificate, const ClaimedEvent& event) {
+  const auto& scene = certificate.scene;
+  if (event.kind == Kind::press)
+    field.refuse("is a press", scene.loose ? "give its wall" : "the scene has no loose mass; give it");
+  if (is_of_friction(event.kind)) {
+    if (!scene.friction_static.ball().is_zero()) return;
+    field.refuse("is an event of dry friction", "the scene has none; give its friction");
   }
+  const auto& stop = scene.stops[index_of(event.side)];
+  const bool of_rigid = event.kind == Kind::impact || event.kind == Kind::chatter || event.kind == Kind::rest;
+  if (event.kind == Kind::graze && !certificate.special)
+    field.refuse("is a graze", "only special points have one; give its time and velocity as an impact or touch");
+  if (stop && event.kind == Kind::graze) return;
+  if (!stop || stop->soft == of_rigid)
+    field.refuse(std::string("is an event of a ") + (of_rigid ? "rigid" : "soft") + " stop",
+                 "the scene has none there");
+}
+
+void require_events(const Field& field, const Certificate& certificate) {
+  const auto& events = certificate.events;
+  const auto fields = field.items();
+  for (std::size_t i = 0; i < events.size(); ++i)
+    if (events[i].of_wall)
+      require_wall(fields[i], certificate.scene, events[i]);
+    else
+      require_stop(fields[i], certificate, events[i]);
   if (certificate.released && (!certificate.scene.stops[index_of(*certificate.released)] ||
                                certificate.scene.stops[index_of(*certificate.released)]->soft))
     field.refuse("start with a release by a stop", "the scene has no rigid stop there");
 }
 
-/// The letters of a word, L, U, L* and U*, and whether it ends with the mark that others follow.
-Word word_of(const Field& field) {
+/// The letters of a word, L, U, L* and U*, and whether it ends with the mark that others follow. Where walls are told
+/// from stops, small ones are of these.
+Word word_of(const Field& field, bool tells_walls) {
   static const std::string cut = "\u2026";
   const std::string text = field.text();
   Word word{text, {}, false};
   if (text.empty() || text == "-" || text == "(L)" || text == "(U)" || text == "(S)") return word;
+  if (tells_walls && (text == "(l)" || text == "(u)")) return word;
   std::string letters = text;
   if (letters.ends_with(cut)) letters.resize(letters.size() - cut.size()), word.is_cut = true;
   bool is_word = !letters.empty();
   for (const char letter : letters) {
-    if (letter == 'L' || letter == 'U')
+    if (letter == 'L' || letter == 'U' || (tells_walls && (letter == 'l' || letter == 'u')))
       word.letters.emplace_back(1, letter);
     else if (letter == '*' && !word.letters.empty() && word.letters.back().size() == 1)
       word.letters.back() += letter;
@@ -161,7 +166,8 @@ void require_claims_of_special(const Field& root) {
 void read_periodic(const Field& root, Certificate& certificate) {
   if (certificate.special) require_claims_of_special(root);
   certificate.periods = root.get("periods").count(1, 1'000'000);
-  if (const auto word = root.find("word")) certificate.word = word_of(*word);
+  if (const auto word = root.find("word"))
+    certificate.word = word_of(*word, certificate.scene.loose && certificate.scene.has_stops());
   if (const auto symmetric = root.find("symmetric")) certificate.symmetric = symmetric->flag();
   if (certificate.scene.f.ball().is_zero())
     root.get("claim").refuse("periodic motion without a force", "claim a transient");
@@ -317,12 +323,8 @@ Certificate read_certificate(const std::string& line) {
   if (certificate.periodic) read_periodic(root, certificate);
   read_start(root.get("start"), certificate);
   const Field events = root.get("events");
-  for (const Field& event : events.items())
-    certificate.events.push_back(event_of(event, certificate.scene.loose.has_value()));
-  if (certificate.scene.loose)
-    require_walls(events, certificate);
-  else
-    require_stops(events, certificate);
+  for (const Field& event : events.items()) certificate.events.push_back(event_of(event, certificate.scene));
+  require_events(events, certificate);
   if (const auto x = root.find("x_min")) certificate.x_min = x->claimed();
   if (const auto x = root.find("x_max")) certificate.x_max = x->claimed();
   if (!certificate.periodic) read_end(root.get("end"), certificate);

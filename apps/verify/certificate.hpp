@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "followed.hpp"
+#include "event.hpp"
 
 namespace verify {
 
@@ -52,12 +52,13 @@ struct ClaimedEvent {
   Claimed time, v;               ///< v: not of graze, chatter, rest and press; of a loose mass z'
   std::optional<Claimed> until;  ///< of chatter, rest, stick and press
   std::optional<Claimed> x{};    ///< of reversal and stick
+  bool of_wall = false;          ///< of the housing of a loose mass
 };
 
 /// A claimed word.
 struct Word {
   std::string text;
-  std::vector<std::string> letters;  ///< L, U, L* and U* in the order of the impacts; none: of motion without any
+  std::vector<std::string> letters;  ///< L, U, L*, U*, of walls beside stops l, u, l*, u*; none: of motion without any
   bool is_cut = false;               ///< they are only the first ones
 };
 
@@ -79,6 +80,9 @@ struct Certificate {
     std::array<std::optional<StopNumbers>, 2> stops;
     Number friction{}, friction_static{};
     std::optional<LooseNumbers> loose{};
+
+    /// Whether the main mass has events of its own, beside which walls are told from stops.
+    [[nodiscard]] bool has_stops() const { return stops[0] || stops[1] || friction_static != Number(); }
   };
   /// A special point of a family of scenes.
   struct Special {

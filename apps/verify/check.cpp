@@ -5,7 +5,6 @@
 #include "claims.hpp"
 #include "deadline.hpp"
 #include "eigenvalues.hpp"
-#include "loose_motion.hpp"
 #include "order.hpp"
 
 namespace verify {
@@ -35,25 +34,32 @@ void check_response(const Certificate& certificate, const Scene& scene, const Re
 
 void check_periodic(const Certificate& certificate, Report& report) {
   const Scene scene = certificate.scene_in_balls();
-  if (scene.loose) return check_in_housing(certificate, scene, report);
   if (const auto response = steady_response(certificate, scene))
     return check_response(certificate, scene, *response, report);
   const Orbit orbit = claimed_orbit(certificate, scene);
   compare_events(certificate, orbit.events, report);
   if (!certificate.released) {
-    report.compare("start, x", orbit.first.x, certificate.start_x);
-    report.compare("start, v", orbit.first.y, certificate.start_v);
+    report.compare("start, x", orbit.x(), certificate.start_x);
+    report.compare("start, v", orbit.v(), certificate.start_v);
   }
-  compare_extrema(certificate, orbit.motion, orbit.events, scene, report);
-  check_multipliers(certificate, eigenvalues(orbit.derivative), report);
-  const Cycle cycle(orbit.events, length_of(scene, certificate.periods));
-  check_word(certificate, cycle, scene, orbit.first.x, report);
+  if (orbit.in_flight) {
+    report.compare("start, z", orbit.in_flight->first[2], certificate.start_z);
+    report.compare("start, w", orbit.in_flight->first[3], certificate.start_w);
+  }
+  compare_extrema(certificate, *orbit.motion, orbit.events, scene, report);
+  check_multipliers(certificate, orbit.multipliers(), report);
+  const Cycle cycle(orbit.events, length_of(scene, certificate.periods), certificate.pressed.has_value());
+  check_word(certificate, cycle, scene, orbit.x(), report);
   check_smallest_period(certificate, scene, orbit, cycle, report);
   check_symmetry(certificate, scene, orbit, cycle, report);
 }
 
-/// Follows a transient to its end.
-void follow(const Certificate& certificate, Followed& motion, const Scene& scene, Report& report) {
+void check_transient(const Certificate& certificate, Report& report) {
+  const Scene scene = certificate.scene_in_balls();
+  Motion motion(scene, certificate.start_in_balls(), Four::zero());
+  const Ball length = certificate.end->time.ball() - motion.start_time();  // of motion that a stop releases from there
+  if (length.is_negative()) throw Refuted("end: claimed before the stop releases the mass");
+  if (!length.is_positive()) throw Undecided("whether the motion ends before the stop releases the mass");
   Course course(certificate, motion, certificate.end->time.ball());
   try {
     course.run();
@@ -63,29 +69,12 @@ void follow(const Certificate& certificate, Followed& motion, const Scene& scene
   }
   compare_events(certificate, course.events(), report);
   compare_extrema(certificate, motion, course.events(), scene, report);
-}
-
-void check_transient_in_housing(const Certificate& certificate, const Scene& scene, Report& report) {
-  LooseMotion motion(scene, certificate.start_in_balls(), Four::zero());
-  follow(certificate, motion, scene, report);
   const Four end = motion.state();
   report.compare("end, x", end[0], certificate.end->x);
   report.compare("end, v", end[1], certificate.end->v);
+  if (!scene.loose) return;
   report.compare("end, z", end[2], certificate.end->z);
   report.compare("end, w", end[3], certificate.end->w);
-}
-
-void check_transient(const Certificate& certificate, Report& report) {
-  const Scene scene = certificate.scene_in_balls();
-  if (scene.loose) return check_transient_in_housing(certificate, scene, report);
-  Motion motion(scene, certificate.start_in_balls(), {Ball(0), Ball(0)});
-  const Ball length = certificate.end->time.ball() - motion.start_time();  // of motion that a stop releases from there
-  if (length.is_negative()) throw Refuted("end: claimed before the stop releases the mass");
-  if (!length.is_positive()) throw Undecided("whether the motion ends before the stop releases the mass");
-  follow(certificate, motion, scene, report);
-  const Vector end = motion.state();
-  report.compare("end, x", end.x, certificate.end->x);
-  report.compare("end, v", end.y, certificate.end->v);
 }
 
 Finding found_in(const Certificate& certificate, slong precision) {

@@ -24,13 +24,11 @@ void check_word(const Certificate& certificate, const Cycle& cycle, const Scene&
 /// leave it open.
 void check_symmetry(const Certificate& certificate, const Scene& scene, const Cycle& cycle,
                     const std::function<bool(const Ball& centre)>& returns_mirrored, Report& report);
-/// Both claims for motion without a loose mass.
+/// Both claims of a proved motion.
 void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
                            Report& report);
 void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
                     Report& report);
-/// All claims of periodic motion with a loose mass.
-void check_in_housing(const Certificate& certificate, const Scene& scene, Report& report);
 
 /// Whether a special point of the claimed kind lies within the claimed errors.
 void check_special(const Certificate& certificate, Report& report);

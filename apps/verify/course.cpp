@@ -10,17 +10,26 @@
 
 namespace verify {
 
+namespace {
+
+/// Where an event is, claimed or found.
+template <class AnyEvent>
+std::string place_of(const AnyEvent& event) {
+  if (is_of_friction(event.kind)) return "";
+  return std::string(" at the ") + name_of(event.side) + (event.of_wall ? " wall" : " stop");
+}
+
+}  // namespace
+
 std::string named(std::size_t number, const ClaimedEvent& event) {
-  const std::string name = "event " + std::to_string(number + 1) + ", " + name_of(event.kind);
-  return is_of_friction(event.kind) ? name : name + " at the " + name_of(event.side) + " stop";
+  return "event " + std::to_string(number + 1) + ", " + name_of(event.kind) + place_of(event);
 }
 
 namespace {
 
 std::string found_text(const Event& event) {
   if (event.kind == Kind::end) return "no further event";
-  const std::string place = is_of_friction(event.kind) ? "" : std::string(" at the ") + name_of(event.side) + " stop";
-  return name_of(event.kind) + place + ", time " + event.time.text();
+  return name_of(event.kind) + place_of(event) + ", time " + event.time.text();
 }
 
 /// A part of a claimed error that grows smaller with the precision: what one precision leaves open, a later one tells.
@@ -77,16 +86,15 @@ void Course::run() {
   for (std::size_t i = 0; i < claims.size(); ++i) {
     require_time();
     const Event event = found_for(claims[i]);
-    if (event.kind != claims[i].kind || event.side != claims[i].side)
+    if (event.kind != claims[i].kind || event.side != claims[i].side || event.of_wall != claims[i].of_wall)
       throw Refuted(named(i, claims[i]) + ": claimed, found " + found_text(event));
     require_order(event);
     events_.push_back(event);
   }
   if (ends_with_release()) return;
   if (motion_.is_resting() && !motion_.is_at_end())
-    throw Refuted(certificate_.scene.loose
-                      ? "after the last event: a wall presses the loose mass, and no press is claimed"
-                      : "after the last event: a stop holds the mass, and no rest is claimed");
+    throw Refuted(motion_.pressed_by() ? "after the last event: a wall presses the loose mass, and no press is claimed"
+                                       : "after the last event: a stop holds the mass, and no rest is claimed");
   const Event event = next_event(nullptr);
   if (event.kind != Kind::end) throw Refuted("after the last event: nothing is claimed, found " + found_text(event));
 }
@@ -107,11 +115,11 @@ void compare_events(const Certificate& certificate, const std::vector<Event>& ev
     if (claim.until)
       report.compare(name + ", until", events[i].until, *claim.until);
     else if (claim.kind != Kind::graze && claim.kind != Kind::reversal)
-      report.compare(name + (certificate.scene.loose ? ", w" : ", v"), events[i].v, claim.v);
+      report.compare(name + (claim.of_wall ? ", w" : ", v"), events[i].v, claim.v);
   }
 }
 
-void compare_extrema(const Certificate& certificate, const Followed& motion, const std::vector<Event>& events,
+void compare_extrema(const Certificate& certificate, const Motion& motion, const std::vector<Event>& events,
                      const Scene& scene, Report& report) {
   for (const Side side : {Side::lower, Side::upper}) {
     const auto& claim = side == Side::upper ? certificate.x_max : certificate.x_min;
@@ -119,7 +127,7 @@ void compare_extrema(const Certificate& certificate, const Followed& motion, con
     const auto& stop = scene.stops[index_of(side)];
     const bool meets =
         stop && !stop->soft && (certificate.released == side || std::ranges::any_of(events, [&](auto& e) {
-                                  return e.side == side && !is_of_friction(e.kind);
+                                  return e.side == side && !e.of_wall && !is_of_friction(e.kind);
                                 }));
     const Ball found = meets ? stop->position : extremum(motion.stretches(), motion.other_places(), sign_of(side));
     report.compare(side == Side::upper ? "x_max" : "x_min", found, *claim);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "certificate.hpp"
+#include "motion.hpp"
 #include "report.hpp"
 
 namespace verify {
@@ -12,7 +13,7 @@ namespace verify {
 /// impacts before the sum of a chatter, and the place of a graze.
 class Course {
  public:
-  Course(const Certificate& certificate, Followed& motion, const Ball& end)
+  Course(const Certificate& certificate, Motion& motion, const Ball& end)
       : certificate_(certificate), motion_(motion), end_(end) {}
 
   /// Throws Refuted if its events aren't the claimed ones, and Undecided if that can't be told.
@@ -28,7 +29,7 @@ class Course {
   void require_order(const Event& event) const;
 
   const Certificate& certificate_;
-  Followed& motion_;
+  Motion& motion_;
   Ball end_;
   std::vector<Event> events_{};
 };
@@ -38,7 +39,7 @@ class Course {
 /// Compares the events that were found with those that are claimed.
 void compare_events(const Certificate& certificate, const std::vector<Event>& events, Report& report);
 /// Compares the extrema of the displacement on the way of a motion.
-void compare_extrema(const Certificate& certificate, const Followed& motion, const std::vector<Event>& events,
+void compare_extrema(const Certificate& certificate, const Motion& motion, const std::vector<Event>& events,
                      const Scene& scene, Report& report);
 
 }  // namespace verify

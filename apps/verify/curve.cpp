@@ -88,9 +88,9 @@ Curve::Passage Curve::pass(const Place& at) const {
   const slong first = motion.turns_of_release();
   course.run();
   if (certificate_.released) require_same_release(certificate_, course, motion.turns_of_release() - first);
-  Passage passage{course.events(), motion.stretches(), Ball(0), Ball(0), motion.derivative(), {}, {}, keep};
+  Passage passage{course.events(), motion.stretches(), Ball(0), Ball(0), of_main(motion.derivative()), {}, {}, keep};
   if (certificate_.released) return passage;
-  Vector end = motion.centre(), by_parameter = motion.by_parameter();
+  Vector end = of_main(motion.centre()), by_parameter = of_main(motion.by_parameter());
   Matrix& m = passage.derivative;
   if (mirrored_) {
     const Dual twice = Dual(2) * *mirror_centre(certificate_.moving_scene(Ball(0)));

@@ -33,7 +33,8 @@ std::vector<Event> Cycle::without_rebounds() const {
   std::vector<Event> list;
   for (const Event& event : events_) {
     const auto leads_to_it = [&](const Event& before) {
-      return (before.kind == Kind::impact && before.side == event.side) || before.kind == Kind::reversal;
+      return (before.kind == Kind::impact && before.side == event.side && before.of_wall == event.of_wall) ||
+             before.kind == Kind::reversal;
     };
     if (event.kind == Kind::chatter)
       while (!list.empty() && leads_to_it(list.back())) list.pop_back();
@@ -50,7 +51,7 @@ bool Cycle::differs(const std::vector<Event>& events, std::size_t shift, const B
     const std::size_t j = (i + shift) % events.size();
     const Event &one = events[i], &other = events[j];
     const Ball turn = i + shift >= events.size() ? period_ : Ball(0);
-    if (one.kind != other.kind) return true;
+    if (one.kind != other.kind || one.of_wall != other.of_wall) return true;
     if (!is_of_friction(one.kind) && (one.side == other.side) == mirrored) return true;
     if (!(other.time + turn).overlaps(one.time + later) || !other.v.overlaps(mirrored ? -one.v : one.v)) return true;
     if (lasts(one.kind) && !(other.until + turn).overlaps(one.until + later)) return true;
@@ -99,10 +100,11 @@ bool Cycle::releases_mirrored() const {
   return false;
 }
 
-std::vector<std::string> Cycle::letters() const {
+std::vector<std::string> Cycle::letters(bool tells_walls) const {
   std::vector<std::string> word;
   for (const Event& event : events_) {
-    const std::string letter = event.side == Side::upper ? "U" : "L";
+    const bool is_small = tells_walls && event.of_wall, is_upper = event.side == Side::upper;
+    const std::string letter = is_small ? (is_upper ? "u" : "l") : (is_upper ? "U" : "L");
     if (event.kind == Kind::impact || event.kind == Kind::touch) word.push_back(letter);
     if (!holds(event.kind)) continue;
     bool any = false;

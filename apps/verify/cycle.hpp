@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "followed.hpp"
+#include "event.hpp"
 
 namespace verify {
 
@@ -23,8 +23,9 @@ class Cycle {
   [[nodiscard]] long releases() const;
   /// Whether one stop lets the mass go half a period after the other.
   [[nodiscard]] bool releases_mirrored() const;
-  /// The stops of the impacts in order, L and U; those that end in rest are one L* or U*.
-  [[nodiscard]] std::vector<std::string> letters() const;
+  /// The stops of the impacts in order, L and U, or of walls that are told from them l and u; those that end in rest
+  /// are one L* or U*.
+  [[nodiscard]] std::vector<std::string> letters(bool tells_walls) const;
 
   [[nodiscard]] const std::vector<Event>& events() const { return events_; }
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "followed.hpp"
+#include "event.hpp"
 
 namespace verify {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "deadline.hpp"
-#include "loose_flight.hpp"
 
 namespace verify {
 
-void Piece::set_steps(const Ball& from, const Ball& to) {
+Piece::Piece(const MachineFlight& flight, const Ball& from, const Ball& to)
+    : middle_(flight.at(((from + to) / Ball(2)).middle())), all_(flight.at(Ball::hull(from, to))) {
   step_ = Ball::hull(from, to) - ((from + to) / Ball(2)).middle();
   const Ball half = abs(step_).upper(), half_of_square = half * half / Ball(2);
   half_square_ = Ball::hull(Ball(0), half_of_square);
@@ -16,8 +16,8 @@ void Piece::set_steps(const Ball& from, const Ball& to) {
 }
 
 Ball Piece::range(const Margin& margin, int order) const {
-  const auto& m = middle_;
-  const Ball third = margin.derivative(all_.j, all_.d4);
+  const Flow::Instant &m = middle_.of(margin.which), &all = all_.of(margin.which);
+  const Ball third = margin.derivative(all.j, all.d4);
   switch (order) {
     case 0:
       return margin.of(m.x, m.v) + step_ * margin.derivative(m.v, m.a) + half_square_ * margin.derivative(m.a, m.j) +
@@ -36,27 +36,25 @@ namespace {
 /// What a piece of a flight does to a margin that is positive where it begins, or vanishes there.
 enum class Clearance { clear, crosses, unknown };
 
-template <class Flight>
-Clearance clearance_of(const Piece& piece, const Flight& flight, const Margin& margin, bool begins, const Ball& to) {
+Clearance clearance_of(const Piece& piece, const MachineFlight& flight, const Margin& margin, bool begins,
+                       const Ball& to) {
   if (begins && margin.vanishing > 0)
     return piece.range(margin, margin.vanishing).is_positive() ? Clearance::clear : Clearance::unknown;
   if (piece.range(margin, 0).is_positive()) return Clearance::clear;
   const Ball rate = piece.range(margin, 1);
   if (rate.is_positive()) return Clearance::clear;
   if (!rate.is_negative()) return Clearance::unknown;
-  const Flow::Instant end = flight.at(to);
-  const Ball value = margin.of(end.x, end.v);
+  const Ball value = margin.at(flight.at(to));
   return value.is_positive() ? Clearance::clear : value.is_negative() ? Clearance::crosses : Clearance::unknown;
 }
 
 /// A step for the first piece: half of a short flight, if the first derivatives tell of one.
-template <class Flight>
-Ball first_step(double fastest, const Flight& flight, std::span<const Margin> margins) {
+Ball first_step(double fastest, const MachineFlight& flight, std::span<const Margin> margins) {
   double step = 0.5 / fastest;
-  const Flow::Instant start = flight.at(Ball(0));
+  const Moment start = flight.at(Ball(0));
   for (const Margin& margin : margins) {
     if (margin.vanishing != 1) continue;
-    const double rate = margin.derivative(start.v, start.a).near(), bend = margin.derivative(start.a, start.j).near();
+    const double rate = margin.rate(start).near(), bend = margin.bend(start).near();
     if (bend < 0 && rate > 0) step = std::min(step, -0.8 * rate / bend);
   }
   return Ball(step);
@@ -64,8 +62,7 @@ Ball first_step(double fastest, const Flight& flight, std::span<const Margin> ma
 
 }  // namespace
 
-template <class Flight>
-std::optional<Crossing> first_crossing(double fastest, const Flight& flight, std::span<const Margin> margins,
+std::optional<Crossing> first_crossing(double fastest, const MachineFlight& flight, std::span<const Margin> margins,
                                        const Ball& horizon) {
   if (!horizon.is_finite()) throw Undecided("how long a flight lasts");
   const Ball end = horizon.upper(), longest(2 / fastest);
@@ -97,13 +94,12 @@ std::optional<Crossing> first_crossing(double fastest, const Flight& flight, std
   return std::nullopt;
 }
 
-std::optional<Ball> turn_of(const Flow::Flight& flight, const Margin& margin, const Ball& between) {
+std::optional<Ball> turn_of(const MachineFlight& flight, const Margin& margin, const Ball& between) {
   Ball now = between;
   for (int iteration = 0; iteration < 64; ++iteration) {
     const Ball bend = Piece(flight, now.lower(), now.upper()).range(margin, 2), middle = now.middle();
     if (!bend.is_negative() && !bend.is_positive()) break;
-    const Flow::Instant there = flight.at(middle);
-    const Ball newton = middle - margin.derivative(there.v, there.a) / bend;
+    const Ball newton = middle - margin.rate(flight.at(middle)) / bend;
     if (!newton.overlaps(now)) return std::nullopt;
     const Ball next = now.within(newton);
     const bool done = next.radius() > 0.5 * now.radius();
@@ -113,12 +109,11 @@ std::optional<Ball> turn_of(const Flow::Flight& flight, const Margin& margin, co
   return now;
 }
 
-template <class Flight>
-Ball instant_of(const Flight& flight, const Margin& margin, const Ball& between) {
+Ball instant_of(const MachineFlight& flight, const Margin& margin, const Ball& between) {
   Ball now = between, guess = between.middle();
-  Flow::Instant there = flight.at(guess);
+  Moment there = flight.at(guess);
   for (int iteration = 0; iteration < 8 && now.radius() > 1e-6; ++iteration) {  // no proof depends on where this leads
-    const Ball step = margin.of(there.x, there.v) / margin.derivative(there.v, there.a), next = (guess - step).middle();
+    const Ball step = margin.at(there) / margin.rate(there), next = (guess - step).middle();
     if (!next.is_finite() || !next.overlaps(now)) break;
     guess = next, there = flight.at(guess);
     if (std::abs(step.near()) < 1e-9) break;
@@ -126,7 +121,7 @@ Ball instant_of(const Flight& flight, const Margin& margin, const Ball& between)
   for (int iteration = 0; iteration < 64; ++iteration) {
     const Ball rate = Piece(flight, now.lower(), now.upper()).range(margin, 1);
     if (!rate.is_negative() && !rate.is_positive()) throw Undecided("the time of an event that is nearly a graze");
-    const Ball next = now.within(guess - margin.of(there.x, there.v) / rate);
+    const Ball next = now.within(guess - margin.at(there) / rate);
     const double rounding = std::ldexp(std::abs(next.near()), 4 - static_cast<int>(bits));
     const bool done = next.radius() > 0.5 * now.radius() || next.radius() <= rounding;
     now = next;
@@ -135,12 +130,5 @@ Ball instant_of(const Flight& flight, const Margin& margin, const Ball& between)
   }
   return now;
 }
-
-template std::optional<Crossing> first_crossing(double, const Flow::Flight&, std::span<const Margin>, const Ball&);
-template std::optional<Crossing> first_crossing(double, const FlightInHousing&, std::span<const Margin>, const Ball&);
-template std::optional<Crossing> first_crossing(double, const WallForce&, std::span<const Margin>, const Ball&);
-template Ball instant_of(const Flow::Flight&, const Margin&, const Ball&);
-template Ball instant_of(const FlightInHousing&, const Margin&, const Ball&);
-template Ball instant_of(const WallForce&, const Margin&, const Ball&);
 
 }  // namespace verify

@@ -104,6 +104,15 @@ auto BasicFlow<Number>::Flight::at(const Number& s) const -> Instant {
 }
 
 template <class Number>
+std::pair<Number, Number> BasicFlow<Number>::Flight::further(const Number& s, const Instant& there) const {
+  const BasicFlow& o = flow_;
+  const auto [sine, cosine] = sin_cos(theta_ + o.nu_ * s);
+  const Number damping = Number(2) * o.h_, fast = o.f_ * o.nu_ * square(o.nu_);
+  const Number d5 = -damping * there.d4 - o.k_ * there.j - fast * cosine;
+  return {d5, -damping * d5 - o.k_ * there.d4 + fast * o.nu_ * sine};
+}
+
+template <class Number>
 BasicMatrix<Number> BasicFlow<Number>::Flight::derivative(const Number& s) const {
   return flow_.propagator(s);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "linear.hpp"
 #include "scene.hpp"
@@ -35,6 +36,8 @@ class BasicFlow {
     [[nodiscard]] Instant at(const Number& s) const;
     /// The derivative of (x, v) at s by (x, v) at 0.
     [[nodiscard]] Matrix derivative(const Number& s) const;
+    /// The fifth and the sixth derivative of the displacement at s, from the others.
+    [[nodiscard]] std::pair<Number, Number> further(const Number& s, const Instant& there) const;
 
    private:
     /// The particular solution: x and v at s, from sine and cosine of the phase.
@@ -55,6 +58,9 @@ class BasicFlow {
   /// The derivative of (x, v) after a time by (x, v).
   [[nodiscard]] Matrix propagator(const Number& s) const;
 
+  [[nodiscard]] const Number& damping() const { return h_; }
+  [[nodiscard]] const Number& stiffness() const { return k_; }
+  [[nodiscard]] const Number& load() const { return load_; }
   /// Greatest rate at which motion changes, for the choice of a step.
   [[nodiscard]] double rate() const { return rate_; }
 

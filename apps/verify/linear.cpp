@@ -23,16 +23,6 @@ FourByFour FourByFour::inverse() const {
   return right;
 }
 
-Matrix frame_along(const Matrix& image, const Vector& box, const Matrix& uncertain) {
-  double x = image.a.near(), y = image.c.near();
-  const double u = image.b.near(), w = image.d.near();
-  const double first = box.x.radius() + uncertain.a.radius(), second = box.y.radius() + uncertain.c.radius();
-  if (std::hypot(u, w) * second > std::hypot(x, y) * first) x = u, y = w;
-  const double length = std::hypot(x, y);
-  if (!(length > 1e-300 && length < 1e300)) return Matrix::identity();
-  return {Ball(x / length), Ball(-y / length), Ball(y / length), Ball(x / length)};
-}
-
 namespace {
 
 using Doubles = std::array<double, 4>;

@@ -54,7 +54,7 @@ struct BasicMatrix {
 };
 using Matrix = BasicMatrix<Ball>;
 
-/// Four numbers.
+/// Four numbers: x, x', z, z' or what stands in their place.
 struct Four {
   std::array<Ball, 4> at;
 
@@ -84,7 +84,7 @@ struct Four {
   }
 };
 
-/// A 4 x 4 matrix, by rows.
+/// A 4 x 4 matrix, by rows. Numbers that are 0 exactly take no time: without a loose mass half of them are.
 struct FourByFour {
   std::array<Four, 4> rows;
 
@@ -99,14 +99,16 @@ struct FourByFour {
   friend Four operator*(const FourByFour& m, const Four& p) {
     Four image = Four::zero();
     for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t k = 0; k < 4; ++k) image[i] = image[i] + m[i][k] * p[k];
+      for (std::size_t k = 0; k < 4; ++k)
+        if (!m[i][k].is_zero()) image[i] = image[i] + m[i][k] * p[k];
     return image;
   }
   friend FourByFour operator*(const FourByFour& m, const FourByFour& n) {
     FourByFour product = zero();
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < 4; ++k)
-        for (std::size_t j = 0; j < 4; ++j) product[i][j] = product[i][j] + m[i][k] * n[k][j];
+        for (std::size_t j = 0; j < 4 && !m[i][k].is_zero(); ++j)
+          if (!n[k][j].is_zero()) product[i][j] = product[i][j] + m[i][k] * n[k][j];
     return product;
   }
   friend FourByFour operator-(const FourByFour& m) { return {{-m[0], -m[1], -m[2], -m[3]}}; }
@@ -126,9 +128,12 @@ struct FourByFour {
   }
 };
 
+/// The part of the main mass.
+[[nodiscard]] inline Vector of_main(const Four& y) { return {y[0], y[1]}; }
+[[nodiscard]] inline Matrix of_main(const FourByFour& m) { return {m[0][0], m[0][1], m[1][0], m[1][1]}; }
+
 /// A frame whose first axis is the longest side of the image of a box, and so on; `uncertain` is what a derivative
 /// that is carried along adds to the box. Any frame is right, a good one narrow.
-[[nodiscard]] Matrix frame_along(const Matrix& image, const Vector& box, const Matrix& uncertain);
 [[nodiscard]] FourByFour frame_along(const FourByFour& image, const Four& box, const FourByFour& uncertain);
 
 }  // namespace verify

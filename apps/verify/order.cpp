@@ -5,17 +5,25 @@
 namespace verify {
 namespace {
 
-/// Whether walls or a stop take all speed in an impact.
-bool is_inelastic(const Certificate::SceneNumbers& scene, Side side) {
-  if (scene.loose) return scene.loose->R[index_of(side)].ball().is_zero();
-  const auto& stop = scene.stops[index_of(side)];
+/// Whether a wall or a stop takes all speed in an impact.
+bool is_inelastic(const Certificate::SceneNumbers& scene, const ClaimedEvent& event) {
+  if (event.of_wall) return scene.loose->R[index_of(event.side)].ball().is_zero();
+  const auto& stop = scene.stops[index_of(event.side)];
   return stop && !stop->soft && stop->R.ball().is_zero();
 }
 
-/// A mass comes to rest on a stop by a chatter, or by an impact that takes all its speed.
-bool leads_to_rest(const Certificate::SceneNumbers& scene, const ClaimedEvent& before, Side side) {
-  return before.side == side &&
-         (before.kind == Kind::chatter || (before.kind == Kind::impact && is_inelastic(scene, side)));
+bool are_alike(const ClaimedEvent& one, const ClaimedEvent& other) {
+  return one.side == other.side && one.of_wall == other.of_wall;
+}
+
+/// A mass comes to rest on a stop or a wall by a chatter, or by an impact that takes all its speed; a press goes on
+/// after an event of the main mass.
+bool leads_to_rest(const Certificate::SceneNumbers& scene, const std::vector<ClaimedEvent>& events, std::size_t rest) {
+  const ClaimedEvent &before = events[rest - 1], &event = events[rest];
+  if (are_alike(before, event))
+    return before.kind == Kind::chatter || (before.kind == Kind::impact && is_inelastic(scene, before));
+  return event.of_wall && !before.of_wall && before.kind != Kind::impact && rest > 1 &&
+         events[rest - 2].kind == Kind::press && are_alike(events[rest - 2], event);
 }
 
 }  // namespace
@@ -30,9 +38,9 @@ void require_possible_order(const Certificate& certificate) {
     const ClaimedEvent& before = events[i - 1];
     if (event.time.latest() < (before.until ? *before.until : before.time).earliest())
       throw Refuted(named(i, event) + ": claimed before the end of event " + std::to_string(i));
-    if (holds(event.kind) && !leads_to_rest(certificate.scene, before, event.side))
+    if (holds(event.kind) && !leads_to_rest(certificate.scene, events, i))
       throw Refuted(named(i, event) + ": claimed, and neither a chatter nor an impact with R = 0 leads to it");
-    if (before.kind == Kind::chatter && !(holds(event.kind) && event.side == before.side))
+    if (before.kind == Kind::chatter && !(holds(event.kind) && are_alike(before, event)))
       throw Refuted(named(i, event) + ": claimed, found that the chatter before it ends in rest");
   }
 }

@@ -35,14 +35,9 @@ void require_smallest_period_of_rests(long periods, const Cycle& cycle) {
 
 void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
                            Report& report) {
-  if (cycle.releases() > 0) return require_smallest_period_of_rests(certificate.periods, cycle);
-  const auto repeats_after = [&](long parts) {
-    Certificate shorter = certificate;  // its events are the first share of them, or the claim fails
-    shorter.periods = certificate.periods / parts;
-    shorter.events.resize(certificate.events.size() / static_cast<std::size_t>(parts));
-    return orbit.holds(periodic_orbit(shorter, scene, shorter.periods).first);
-  };
-  check_smallest_period(certificate, cycle, repeats_after, report);
+  if (cycle.releases() > 0 && !scene.loose) return require_smallest_period_of_rests(certificate.periods, cycle);
+  const auto repeats = [&](long parts) { return repeats_after(certificate, scene, orbit, static_cast<int>(parts)); };
+  check_smallest_period(certificate, cycle, repeats, report);
 }
 
 namespace {
@@ -65,6 +60,8 @@ bool same_word(const Word& claimed, const std::vector<std::string>& found) {
 /// the start may be on either side of a stop.
 std::optional<std::string> word_without_impacts(const std::vector<Event>& events, const Scene& scene, const Ball& x) {
   const auto stays = [](Side side) -> std::string { return side == Side::upper ? "(U)" : "(L)"; };
+  const auto held = std::ranges::find_if(events, [](const Event& event) { return holds(event.kind); });
+  if (scene.tells_walls() && held != events.end() && held->of_wall) return held->side == Side::upper ? "(u)" : "(l)";
   if (events.size() == 1 && events.front().kind == Kind::stick) return "(S)";
   const auto on_stop = std::ranges::find_if(events, [](const Event& event) { return !is_of_friction(event.kind); });
   if (on_stop != events.end()) return stays(on_stop->side);
@@ -107,7 +104,7 @@ void check_multipliers(const Certificate& certificate, const std::optional<std::
 
 void check_word(const Certificate& certificate, const Cycle& cycle, const Scene& scene, const Ball& x, Report& report) {
   if (!certificate.word) return;
-  const std::vector<std::string> letters = cycle.letters();
+  const std::vector<std::string> letters = cycle.letters(scene.tells_walls());
   const std::string& claimed = certificate.word->text;
   std::string found;
   for (const std::string& letter : letters) found += letter;
@@ -120,30 +117,6 @@ void check_word(const Certificate& certificate, const Cycle& cycle, const Scene&
   if (letters.empty() ? claimed != found : !same_word(*certificate.word, letters))
     report.add(Verdict::refuted, "word: claimed '" + claimed + "', found '" + found + "'");
 }
-
-namespace {
-
-// Symmetry: x -> 2c - x half a period later.
-
-/// Proves that half a period takes the motion to its mirror image: this lies in the box in which the periodic motion is
-/// the only one, and the mirror image of a periodic motion is one, too.
-bool returns_mirrored(const Certificate& certificate, const Scene& scene, const Ball& centre, const Orbit& orbit) {
-  Certificate half = certificate;
-  half.events.resize(certificate.events.size() / 2);
-  Start start = certificate.start_in_balls();
-  start.x = orbit.first.x.middle(), start.v = orbit.first.y.middle();
-  Motion motion(scene, start, {abs(orbit.first.x - start.x).upper(), abs(orbit.first.y - start.v).upper()});
-  Course course(half, motion, motion.start_time() + length_of(scene, certificate.periods) / Ball(2));
-  try {
-    course.run();
-  } catch (const Refuted&) {
-    return false;
-  }
-  const Vector image = motion.state();
-  return orbit.holds({Ball(2) * centre - image.x, -image.y});
-}
-
-}  // namespace
 
 void check_symmetry(const Certificate& certificate, const Scene& scene, const Cycle& cycle,
                     const std::function<bool(const Ball& centre)>& returns_mirrored, Report& report) {
@@ -162,7 +135,8 @@ void check_symmetry(const Certificate& certificate, const Scene& scene, const Cy
 void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
                     Report& report) {
   const auto is_mirrored = [&](const Ball& centre) {
-    return cycle.releases() > 0 ? cycle.releases_mirrored() : returns_mirrored(certificate, scene, centre, orbit);
+    return cycle.releases() > 0 && !scene.loose ? cycle.releases_mirrored()
+                                                : returns_mirrored(certificate, scene, orbit, centre);
   };
   check_symmetry(certificate, scene, cycle, is_mirrored, report);
 }

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loose_motion.hpp"
+#include "motion.hpp"
 
 namespace verify {
 
@@ -9,9 +9,9 @@ namespace verify {
 
 /// The infinitely many rebounds from an impact on. Both masses together have the centre X = x + share zeta, zeta being
 /// the distance from the wall. It moves as if the wall pressed at once, but for a push of q (k zeta + 2h zeta').
-class LooseMotion::Chatter {
+class Motion::ChatterInHousing {
  public:
-  explicit Chatter(const LooseMotion& motion);
+  explicit ChatterInHousing(const Motion& motion);
   /// Throws Undecided if it isn't proved to end in a press.
   [[nodiscard]] Rebounds rebounds() const;
 
@@ -29,8 +29,8 @@ class LooseMotion::Chatter {
   [[nodiscard]] Ball area(const FirstChange& first) const;
 
   const LooseMass& loose_;
-  const Scene& scene_;
   Side side_;
+  Ball h_, k_;                    ///< of the main mass alone
   Ball R_;                        ///< of the wall
   Ball time_, w_, now_;           ///< of the impact; the speed after it; -zeta'' there
   Ball longest_, height_, fast_;  ///< bounds of the time of all rebounds, of zeta and of its rate
@@ -41,35 +41,39 @@ class LooseMotion::Chatter {
   Vector kick_;          ///< bounds of what zeta does to X and X', over its time integral
 };
 
-LooseMotion::Chatter::Chatter(const LooseMotion& motion)
-    : loose_(motion.loose_), scene_(motion.scene_), side_(motion.wall_), R_(loose_.restitution(side_)) {
+Motion::ChatterInHousing::ChatterInHousing(const Motion& motion)
+    : loose_(*motion.scene_.loose), side_(motion.wall_), R_(loose_.restitution(side_)) {
+  const Scene& scene = motion.scene_;
+  const Flow &alone = motion.flow(), &both = motion.flows_->as_one[motion.number_of_flow()];
   const Four before = motion.set_.hull();
-  time_ = before[0], w_ = abs(motion.turn_ * before[3]), now_ = motion.pressing();
-  q_ = loose_.share() / (Ball(1) + loose_.mass);
+  time_ = before[2], w_ = abs(motion.turn_ * before[3]), now_ = motion.pressing();
+  h_ = alone.damping(), k_ = alone.stiffness(), q_ = loose_.share() / (Ball(1) + loose_.mass);
   if (!now_.is_positive() || !(R_ < Ball(1))) throw Undecided("whether a chatter ends");
   longest_ = (Ball(4) * w_ / (now_ * (Ball(1) - R_))).upper();
   height_ = (square(w_) / now_).upper(), fast_ = Ball(2) * w_.upper();
-  const Flow& both = motion.flows_->as_one;
   const Ball window = Ball::hull(Ball(0), longest_);
   along_ = both.propagator(window);
-  const Flow::Flight centre(both, time_, before[1], before[2] + loose_.share() * before[3]);
+  const Flow::Flight centre(both, time_, before[0], before[1] + loose_.share() * before[3]);
   const Flow::Instant slow = centre.at(window);
-  const Ball push = q_ * (abs(scene_.k) * height_ + Ball(2) * scene_.h * fast_), part = push * longest_;
+  const Ball push = q_ * (abs(k_) * height_ + Ball(2) * h_ * fast_), part = push * longest_;
   const Ball x = slow.x + Ball::around_zero(abs(along_.b) * part + loose_.share() * height_);
   const Ball v = slow.v + Ball::around_zero(abs(along_.d) * part + loose_.share() * fast_);
+  for (const Margin& margin : motion.margins())
+    if (margin.which == Of::main && !margin.of(x, v).is_positive())
+      throw Undecided("whether a chatter is over before an event of the main mass");
   centre_speed_ = {abs(v), abs(slow.a) + push};
-  const Ball sine = sin_cos(scene_.nu * (time_ + window) + scene_.phase).first;
-  const Ball a = scene_.f * sine + scene_.load - Ball(2) * scene_.h * v - scene_.k * x;
+  const Ball sine = sin_cos(scene.nu * (time_ + window) + scene.phase).first;
+  const Ball a = scene.f * sine + alone.load() - Ball(2) * h_ * v - k_ * x;
   const Ball during = Ball(sign_of(side_)) * (loose_.load - a);
   least_ = during.lower(), most_ = during.upper();
-  jerk_ = abs(scene_.f * scene_.nu) + Ball(2) * scene_.h * abs(a) + abs(scene_.k) * abs(v);
-  const Ball bend = -motion.flows_->both.k * along_.b - Ball(2) * motion.flows_->both.h * along_.d;
-  kick_ = {q_ * (abs(scene_.k * along_.b) + Ball(2) * scene_.h * abs(along_.d)),
-           q_ * (abs(scene_.k * along_.d) + Ball(2) * scene_.h * abs(bend))};
+  jerk_ = abs(scene.f * scene.nu) + Ball(2) * h_ * abs(a) + abs(k_) * abs(v);
+  const Ball bend = -both.stiffness() * along_.b - Ball(2) * both.damping() * along_.d;
+  kick_ = {q_ * (abs(k_ * along_.b) + Ball(2) * h_ * abs(along_.d)),
+           q_ * (abs(k_ * along_.d) + Ball(2) * h_ * abs(bend))};
 }
 
 /// As of a chatter on a stop: with a- <= -zeta'' <= a+ the times are within geometric series.
-LooseMotion::Rebounds LooseMotion::Chatter::rebounds() const {
+Motion::Rebounds Motion::ChatterInHousing::rebounds() const {
   if (!least_.is_positive() || !(square(w_) / (Ball(2) * least_) <= height_)) throw Undecided("whether a chatter ends");
   if (const auto& far = loose_.walls[index_of(opposite(side_))])
     if (!(height_ < abs(*far - loose_.wall(side_)))) throw Undecided("whether a chatter reaches the other wall");
@@ -84,9 +88,9 @@ LooseMotion::Rebounds LooseMotion::Chatter::rebounds() const {
   const Ball most_of_zeta = longest_ * height_;
   left.shift[0] = Ball::around_zero(kick_.x * most_of_zeta), left.shift[1] = Ball::around_zero(kick_.y * most_of_zeta);
   const Ball zero(0), one(1);
-  const FirstChange by[4] = {{one, zero, centre_speed_.x, centre_speed_.y},
-                             {zero, zero, one, zero},
+  const FirstChange by[4] = {{zero, zero, one, zero},
                              {zero, zero, zero, one},
+                             {one, zero, centre_speed_.x, centre_speed_.y},
                              {zero, R_, zero, loose_.share()}};
   for (std::size_t i = 0; i < 4; ++i) {
     const Ball change = area(by[i]);
@@ -98,18 +102,18 @@ LooseMotion::Rebounds LooseMotion::Chatter::rebounds() const {
 
 /// How much zeta changes at a fixed time, at most: in a flight from a rebound at w, d zeta = -w dt + tau (dw + a dt) to
 /// first order in its length tau, and w/a is half of that.
-Ball LooseMotion::Chatter::bound_of_place(const Change& change) const {
+Ball Motion::ChatterInHousing::bound_of_place(const Change& change) const {
   return Ball(4) * fast_ * change.late + longest_ * (change.speeds + longest_ * change.push);
 }
 
 /// Bounds of a change that grows from a first one, if it has the given bounds up to an impact. Over a flight in which
 /// -zeta'' varies by its share e the time and the speed of the next impact change by dt (1 + 3e) + (2/a)(1 + e) dw and
 /// R (1 + 4e) dw + 5 R a e dt at most, besides what the change of zeta'' does; the sum of e is jerk longest/least.
-LooseMotion::Chatter::Change LooseMotion::Chatter::grown(const FirstChange& first, const Change& change) const {
+Motion::ChatterInHousing::Change Motion::ChatterInHousing::grown(const FirstChange& first, const Change& change) const {
   const Ball e = jerk_ * longest_ / least_, per_speed = Ball(2) * (Ball(1) + e) / least_;
   const Ball pushed = longest_ * change.push, place = bound_of_place(change);
   const Ball rate = change.speeds + most_ * change.late + pushed;
-  const Ball two_h = Ball(2) * scene_.h, k = abs(scene_.k);
+  const Ball two_h = Ball(2) * h_, k = abs(k_);
   const Ball push = longest_ * (q_ * (k * place + two_h * rate) + Ball(2) * q_ * two_h * most_ * change.late);
   const Ball x = abs(along_.a) * first.x + abs(along_.b) * (first.v + push);
   const Ball v = abs(along_.c) * first.x + abs(along_.d) * (first.v + push);
@@ -121,7 +125,7 @@ LooseMotion::Chatter::Change LooseMotion::Chatter::grown(const FirstChange& firs
 }
 
 /// A bound of the change of the time integral of zeta.
-Ball LooseMotion::Chatter::area(const FirstChange& first) const {
+Ball Motion::ChatterInHousing::area(const FirstChange& first) const {
   Change change{Ball(0), Ball(0), Ball(0)};
   const auto more = [](const Ball& x) { return (Ball(2) * x + Ball(1e-100)).upper(); };
   for (int i = 0; i < 16; ++i) {  // any bounds are right that are above those that they lead to
@@ -134,93 +138,140 @@ Ball LooseMotion::Chatter::area(const FirstChange& first) const {
   return longest_ * bound_of_place(change);
 }
 
-Event LooseMotion::finish_chatter(const ChatterAim& aim) {
+Event Motion::finish_chatter_in_housing(const ChatterAim& aim) {
   const double narrow = std::max(std::exp2(-static_cast<double>(bits) / 3), 1e-26);  // of its derivative
-  const Side side = wall_;
-  const Ball begin = state_of(set_.hull()).time;
-  if (!on_surface_ || vanishing_ != 1) return next(aim.end);  // it begins with an impact
+  Event chatter{Kind::chatter, wall_, state_of(set_.hull()).time, Ball(0), Ball(0)};
+  chatter.of_wall = true;
   for (int impacts = 0; impacts < 4000; ++impacts) {
     std::optional<Rebounds> left;
     try {
-      left = Chatter(*this).rebounds();
+      left = ChatterInHousing(*this).rebounds();
     } catch (const Undecided&) {
       if (impacts > 1000) throw;
     }
     if (left) {
-      const Ball until = state_of(set_.hull()).time + left->time;
+      chatter.until = state_of(set_.hull()).time + left->time;
       double wide = 0;
       for (const Four& row : left->uncertainty.rows)
         for (const Ball& entry : row.at) wide = std::max(wide, entry.radius());
-      if (until > aim.end) return {Kind::end, side, aim.end, Ball(0), Ball(0)};
-      if (until < aim.end && until.radius() <= aim.accuracy && loose_.share() * left->height <= Ball(aim.height) &&
-          wide <= narrow) {
-        press(*left);
-        return {Kind::chatter, side, begin, Ball(0), until};
+      if (chatter.until > aim.end) return {Kind::end, wall_, aim.end, Ball(0), Ball(0)};
+      if (chatter.until < aim.end && chatter.until.radius() <= aim.accuracy &&
+          scene_.loose->share() * left->height <= Ball(aim.height) && wide <= narrow) {
+        press_at_last(*left);
+        return chatter;
       }
     }
     const Event event = next(aim.end);
-    if (event.kind != Kind::impact || event.side != side || event.time > aim.latest) return event;
+    if (event.kind != Kind::impact || !event.of_wall || event.side != chatter.side || event.time > aim.latest)
+      return event;
   }
   throw Undecided("the end of a chatter");
 }
 
 /// The state after all rebounds: that of a motion which the wall presses at once, and bounds of the difference.
-void LooseMotion::press(const Rebounds& left) {
-  kick_ = loose_.share(), turn_ = Ball(0), pressed_ = true;
+void Motion::press_at_last(const Rebounds& left) {
+  const Ball& share = scene_.loose->share();
+  kick_ = share, turn_ = Ball(0), pressed_ = true;
   const State centre = state_of(set_.centre()), hull = state_of(set_.hull());
   press_begin_ = hull.time + left.time;
   const Ball end = press_begin_.upper(), duration = end - hull.time;
-  const Flow::Instant image = Flow::Flight(flow(), centre.time, centre.x, centre.v).at(end - centre.time);
-  const Flow::Flight main(flow(), hull.time, hull.x, hull.v);
+  const MachineFlight all = flight_from(hull);
+  const Four there = state_at(flight_from(centre).at(end - centre.time));
   if (!(flow().propagator(Ball::hull(Ball(0), duration.upper())).a > Ball(0.5))) throw Undecided("a long chatter");
-  const Ball apart = Ball(2) * (abs(left.shift[0]) + loose_.share() * left.height).upper();
-  stretches_.push_back({Flow::Flight(flow(), hull.time, hull.x + Ball::around_zero(apart), hull.v), duration});
-  const Four there{{image.x, image.v, loose_.wall(wall_), Ball(0)}};
-  set_.move(there + left.shift, over(duration) * into_flight(main.at(Ball(0)), Ball(0)) + left.uncertainty);
-  on_surface_ = false, time_ = end;
+  const Ball apart = Ball(2) * (abs(left.shift[0]) + share * left.height).upper();
+  stretches_.push_back({Flow::Flight(flow(), hull.time, hull.y[0] + Ball::around_zero(apart), hull.y[1]), duration});
+  set_.move(there + left.shift, over(duration) * into_flight(all.at(Ball(0))) + left.uncertainty);
+  surface_.reset(), time_ = end;
   require_bounds();
 }
 
-Event LooseMotion::finish_rest(const Ball& end) {
-  if (!pressed_) throw Undecided("whether a wall presses the loose mass");
-  Event event{Kind::press, wall_, press_begin_, Ball(0), end};
+Event Motion::finish_press(const Ball& end) {
+  Event press{Kind::press, wall_, press_begin_, Ball(0), end};
+  press.of_wall = true;
+  if (!(end - state_of(set_.hull()).time).is_positive() || !pressing().is_positive())
+    throw Undecided("whether a wall presses the loose mass");
+  const Event after = fly(end);
+  if (after.kind != Kind::end) press.until = after.time;
+  if (after.kind != Kind::end && after.kind != Kind::release) due_ = after;
+  return press;
+}
+
+Ball Motion::pressing() const {
   const State state = state_of(set_.hull());
-  const Flow::Flight main(flow(), state.time, state.x, state.v);
-  const WallForce all(main, flows_->both, state.time, loose_.load);
-  const Margin force{sign_of(wall_), Ball(0), Ball(0), 0};
-  const Ball horizon = end - state.time;
-  if (!horizon.is_positive() || !pressing().is_positive()) throw Undecided("whether a wall presses the loose mass");
-  if (const auto crossing = first_crossing(flow().rate(), all, std::span(&force, 1), horizon)) {
-    const Ball instant = instant_of(all, force, Ball::hull(crossing->from, crossing->to));
-    if (instant < horizon) {
-      stretches_.push_back({main, instant});
-      release(main, force, instant);
-      event.until = set_.hull()[0];
-      return event;
+  const Flow& alone = flows_->alone[number_of_flow()];
+  const Ball a = Flow::Flight(alone, state.time, state.y[0], state.y[1]).at(Ball(0)).a;
+  return Ball(sign_of(wall_)) * (scene_.loose->load - a);
+}
+
+/// A loose mass on a wall with z' = 0.
+void Motion::press_or_leave() {
+  const Ball press = pressing();
+  pressed_ = press.is_positive();
+  if (pressed_)
+    press_begin_ = state_of(set_.hull()).time;
+  else if (press.is_negative())
+    loose_vanishing_ = 2;
+  else
+    throw Undecided("whether a wall presses the loose mass");
+}
+
+/// The start of a loose mass on a wall.
+void Motion::start_in_housing() {
+  const Four hull = set_.hull();
+  for (const Side side : {Side::lower, Side::upper}) {
+    if (!scene_.loose->walls[index_of(side)]) continue;
+    const Ball depth = Ball(sign_of(side)) * (hull[2] - scene_.loose->wall(side));
+    if (depth.is_negative()) continue;
+    if (!depth.is_zero()) throw Undecided("on which side of a wall the motion starts");
+    const Ball into = Ball(sign_of(side)) * hull[3];
+    wall_ = side, loose_vanishing_ = 1;
+    if (into.is_negative()) continue;
+    if (hits_at_start_ || resting_ || sticks_) throw Undecided("a start on a wall beside an event of the main mass");
+    if (into.is_zero()) {
+      press_or_leave();
+    } else if (into.is_positive() && set_.is_a_point()) {
+      hits_at_start_ = 2;
+    } else {
+      throw Undecided("a start at a wall");
     }
-    if (!(instant > horizon)) throw Undecided("whether a wall lets the loose mass go before the end");
   }
-  stretches_.push_back({main, horizon});
-  move_to_end(main, end);
-  at_end_ = true;
+}
+
+/// An impact on a wall (eq. 70). Without a rebound the wall presses the loose mass, or is left at once.
+Event Motion::strike(Side side) {
+  wall_ = side, loose_vanishing_ = 1;
+  const Four before = set_.hull();
+  Event event{Kind::impact, side, before[2], before[3], Ball(0)};
+  event.of_wall = true;
+  const Ball& R = scene_.loose->restitution(side);
+  kick_ = (Ball(1) + R) * scene_.loose->share(), turn_ = -R;
+  const Ball v = state_of(set_.hull()).y[1];
+  if (resting_) {
+    if (!(Ball(sign_of(side_)) * v).is_negative()) throw Undecided("whether both masses strike at one instant");
+    begin(Mode::free, side_, 1);
+  }
+  resting_ = sticks_ = false;
+  if (scene_.is_rough()) {
+    if (!v.is_positive() && !v.is_negative()) throw Undecided("whether friction holds the mass after a strike");
+    heading_ = v.is_positive() ? 1 : -1;
+  }
+  if (R.is_zero()) press_or_leave();
   return event;
 }
 
 /// The instant at which x'' of both masses as one is the acceleration of the loose mass in flight.
-void LooseMotion::release(const Flow::Flight& main, const Margin& force, const Ball& instant) {
-  const State centre = state_of(set_.centre());
-  const Flow::Flight middle(flow(), centre.time, centre.x, centre.v);
-  const Ball middle_instant = instant_of(WallForce(middle, flows_->both, centre.time, loose_.load), force, instant);
-  const Flow::Instant image = middle.at(middle_instant), there = main.at(instant);
-  const Ball zero(0), one(1), by_x = flows_->both.k / there.j, by_v = Ball(2) * flows_->both.h / there.j;
-  const FourByFour out{{{{{by_x, by_v, zero, zero}},
-                         {{one + there.v * by_x, there.v * by_v, zero, zero}},
-                         {{there.a * by_x, one + there.a * by_v, zero, zero}},
-                         {{zero, zero, zero, zero}}}}};
-  set_.move({{centre.time + middle_instant, image.x, image.v, zero}},
-            out * over(instant) * into_flight(main.at(Ball(0)), zero));
-  on_surface_ = true, pressed_ = false, vanishing_ = 3;
-  require_bounds();
+Event Motion::let_go() {
+  pressed_ = false, loose_vanishing_ = 3;
+  return {Kind::release, wall_, set_.hull()[2], Ball(0), Ball(0)};
+}
+
+/// What an event of the main mass does to a press. In an impact on a stop the loose mass keeps its velocity y'.
+void Motion::press_on(const Event& event) {
+  if (event.kind == Kind::end) return;
+  if (event.kind != Kind::impact) return press_or_leave();
+  const Ball into = Ball(sign_of(wall_)) * (Ball(1) - factor_.value) * event.v;
+  if (!into.is_negative()) throw Undecided("whether both masses strike at one instant");
+  pressed_ = false, loose_vanishing_ = 1;
 }
 
 }  // namespace verify

@@ -54,6 +54,8 @@ struct BasicScene {
 
   [[nodiscard]] const BasicStop<Number>& stop(Side side) const { return *stops[index_of(side)]; }
   [[nodiscard]] bool is_rough() const { return !friction_static.is_zero(); }
+  /// Whether the walls of a loose mass are told from stops.
+  [[nodiscard]] bool tells_walls() const { return loose && (stops[0] || stops[1] || is_rough()); }
   [[nodiscard]] Number period() const { return Number(2) * Number(Ball::pi()) / nu; }
   /// The force that presses a mass at rest into a stop (eq. 22), at a phase whose sine is given; friction apart.
   [[nodiscard]] Number pressing(Side side, const Number& sine) const {

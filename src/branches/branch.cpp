@@ -339,8 +339,7 @@ class Follower {
 
 Branches follow_branches(const StartProblem& problem, const BranchSettings& settings) {
   Branches found = Follower(problem, settings).run();
-  found.letters = {.sticks = problem.observe.word && problem.observe.word_sticks,
-                   .walls = !has_loose_mass(problem.loose) || has_events_of_its_own(problem)};
+  found.letters = {.sticks = problem.observe.word && problem.observe.word_sticks, .walls = tells_walls(problem)};
   return found;
 }
 

@@ -20,10 +20,10 @@ struct ClaimedEvent {
   motion::Event::Kind kind;
   Side side;
   Claimed time;
-  Claimed then;     ///< of a rest, a stick or a chatter the time of its end, else the velocity before the event; with
-                    ///< a loose mass z', and a rest is a press
-  Claimed place{};  ///< of a stick or a reversal the displacement
-  bool grazes = false;  ///< it has no speed, and changes nothing
+  Claimed then;          ///< of a rest, a stick or a chatter the time of its end, else the velocity before the event
+  Claimed place{};       ///< of a stick or a reversal the displacement
+  bool grazes = false;   ///< it has no speed, and changes nothing
+  bool of_wall = false;  ///< of a loose mass: the velocity is z', a rest is a press
 };
 
 /// A claimed multiplier.

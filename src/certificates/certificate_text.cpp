@@ -54,8 +54,8 @@ Json json_of(const Scene& scene) {
   return json;
 }
 
-/// Of a loose mass an event is one on a wall, on which a rest is a press.
-Json json_of(const ClaimedEvent& event, bool is_loose) {
+/// Of a loose mass an event is one on a wall, on which a rest is a press. Beside stops the wall is named as such.
+Json json_of(const ClaimedEvent& event, bool tells_walls) {
   if (event.side == Side::none) {
     Json turn{{"event", motion::Event::word(event.kind)}, {"time", json_of(event.time)}};
     if (event.kind == Kind::stick) turn["until"] = json_of(event.then);
@@ -64,12 +64,12 @@ Json json_of(const ClaimedEvent& event, bool is_loose) {
   }
   if (event.grazes) return {{"event", "graze"}, {"stop", name_of(event.side)}, {"time", json_of(event.time)}};
   const bool lasts = event.kind == Kind::rest || event.kind == Kind::chatter;
-  return {{"event", motion::Event::word(is_loose && event.kind == Kind::rest ? Kind::press : event.kind)},
-          {"stop", name_of(event.side)},
+  return {{"event", motion::Event::word(event.of_wall && event.kind == Kind::rest ? Kind::press : event.kind)},
+          {event.of_wall && tells_walls ? "wall" : "stop", name_of(event.side)},
           {"time", json_of(event.time)},
-          {lasts      ? "until"
-           : is_loose ? "w"
-                      : "v",
+          {lasts           ? "until"
+           : event.of_wall ? "w"
+                           : "v",
            json_of(event.then)}};
 }
 
@@ -156,8 +156,8 @@ std::string certificate_text(const Certificate& certificate, const CertifiedPlac
   if (certificate.period) json["periods"] = certificate.period->periods;
   json["start"] = start_of(certificate);
   json["events"] = Json::array();
-  const bool is_loose = has_loose_mass(certificate.scene.loose);
-  for (const ClaimedEvent& event : certificate.events) json["events"].push_back(json_of(event, is_loose));
+  const bool is_loose = has_loose_mass(certificate.scene.loose), tells_walls = has_events_of_its_own(certificate.scene);
+  for (const ClaimedEvent& event : certificate.events) json["events"].push_back(json_of(event, tells_walls));
   if (!special) json["x_min"] = json_of(certificate.x_min), json["x_max"] = json_of(certificate.x_max);
   if (certificate.period) add_period(json, *certificate.period);
   if (certificate.end) json["end"] = json_of(*certificate.end, is_loose);

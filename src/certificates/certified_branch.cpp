@@ -52,7 +52,7 @@ Begin begin_of(const FollowedScene& scene, const Orbit& orbit, std::optional<dou
   for (std::size_t i = 0; i < flights; ++i) {
     double from = orbit.size() > 0 ? orbit.event(i).phase : *graze;
     const double to = orbit.size() > 0 ? orbit.event(i + 1).phase : from + orbit.advance();
-    if (orbit.size() > 0 && branches::presses(orbit.event(i).kind)) continue;
+    if (orbit.size() > 0 && orbit.pressed_after(i) != Side::none) continue;
     const auto consider = [&](double begin, double end) {
       if (end - begin <= length) return;
       length = end - begin, longest.phase = (begin + end) / 2, longest.flight = i;
@@ -140,7 +140,7 @@ CertifiedPoint certified(const BranchPoint& point, const StartProblem& start) {
   result.x_min = std::max(range.x_min, rigid.lower), result.x_max = std::min(range.x_max, rigid.upper);
   std::ranges::copy(point.multiplier_re, result.multiplier_re.begin());
   std::ranges::copy(point.multiplier_im, result.multiplier_im.begin());
-  result.impact_word = point.orbit.word();
+  result.impact_word = point.orbit.word({.walls = branches::tells_walls(point.scene)});
   result.symmetric = is_symmetric(point.scene) ? point.orbit.mirrored : std::nan("");
   return certified_period(problem, result);
 }

@@ -56,7 +56,9 @@ Problem observed(Problem problem) {
   problem.observe = {};
   problem.observe.extrema = true;
   if (problem.time.mode == steady::Mode::steady) problem.observe.stability = problem.observe.word = true;
-  if (has_loose_mass(problem.loose)) problem.observe.frame = Frame::absolute;  // in which it is computed
+  if (!has_loose_mass(problem.loose)) return problem;
+  problem.observe.frame = Frame::absolute;  // in which it is computed
+  problem.observe.word_walls = problem.observe.word && has_events_of_its_own(problem);
   return problem;
 }
 
@@ -203,9 +205,8 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
   CertifiedPoint point{.status = known.status};
   if (known.status == Status::grazing) point.without = Without::graze;
   if (known.status != Status::periodic && known.status != Status::transient) return point;
-  const bool has_own = has_events_of_its_own(problem) || has_loose_friction(problem.loose);
-  if (has_loose_mass(problem.loose) && (has_own || !(problem.oscillator.stiffness > 0))) {
-    point.without = Without::both_masses;
+  if (has_loose_friction(problem.loose)) {
+    point.without = Without::loose_friction;
     return point;
   }
   const bool is_steady = known.status == Status::periodic;

@@ -14,15 +14,17 @@ namespace clatter::certificates {
 
 /// Why a point has no certificate, besides its status.
 enum class Without : std::uint8_t {
-  none,           ///< it has one
-  status,         ///< its motion has no period, or the point has failed
-  force,          ///< periodic without a force
-  family,         ///< one of many periodic motions side by side: a multiplier is 1 to rounding
-  graze,          ///< the smallest change of the motion decides whether it meets a stop
-  cut_chatter,    ///< it ends within a chatter
-  rounding,       ///< the motion stretches rounding so much that its events aren't known
-  both_masses,    ///< beside a loose mass the main one has events of its own
-  no_such_claim,  ///< a special point of a kind, or of a motion, that the format has no claim of
+  none,            ///< it has one
+  status,          ///< its motion has no period, or the point has failed
+  force,           ///< periodic without a force
+  family,          ///< one of many periodic motions side by side: a multiplier is 1 to rounding
+  graze,           ///< the smallest change of the motion decides whether it meets a stop
+  cut_chatter,     ///< it ends within a chatter
+  rounding,        ///< the motion stretches rounding so much that its events aren't known
+  loose_friction,  ///< a loose mass rubs on its housing, which certificates don't state
+  both_held,       ///< a stop or friction holds the main mass while a wall presses the loose one
+  one_instant,     ///< two events come within rounding of each other
+  no_such_claim,   ///< a special point of a kind, or of a motion, that the format has no claim of
 };
 
 /// A point with a certificate of its motion, or the reason why it has none.

@@ -12,9 +12,12 @@ template <class Motion, class Bounds>
 Certificate claims_of(const point::Problem& problem, const Motion& motion, const Bounds& bounds,
                       const point::PointResult& result) {
   Certificate certificate{.scene = problem};
-  for (const auto& event : motion.events)
-    certificate.events.push_back(
-        bounds.claimed(event, certificate.events.empty() ? nullptr : &certificate.events.back()));
+  auto& events = certificate.events;
+  for (const auto& event : motion.events) {
+    events.push_back(bounds.claimed(event, events.empty() ? nullptr : &events.back()));
+    if (const std::size_t n = events.size(); n > 1 && bounds.is_cut(events[n - 2], events[n - 1]))
+      events[n - 2].then = events[n - 1].time;
+  }
   certificate.x_min = bounds.claimed_extremum(result.x_min), certificate.x_max = bounds.claimed_extremum(result.x_max);
   return certificate;
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/soft_stop.hpp"
-
 namespace clatter::certificates {
 namespace {
 
@@ -25,9 +23,7 @@ ErrorBounds::ErrorBounds(const point::Problem& problem, const RecordedMotion<2>&
     : Bounds(problem, motion, time,
              std::max({std::abs(result.x_min), std::abs(result.x_max), result.x_max - result.x_min,
                        std::abs(result.v_min), std::abs(result.v_max)}),
-             periodic ? norm_of_return(motion.derivative) : 0.0),
-      friction_(problem.friction),
-      stops_(problem.stops) {}
+             periodic ? norm_of_return(motion.derivative) : 0.0) {}
 
 ErrorBounds::StateError ErrorBounds::error_after(const Map& derivative, const Sizes& rounding, double path) const {
   const double last = of_arithmetic * std::min(size_, path), before = of_arithmetic * size_;
@@ -37,41 +33,17 @@ ErrorBounds::StateError ErrorBounds::error_after(const Map& derivative, const Si
   return {of(0), of(1)};
 }
 
-/// The displacement at an event: where the force of a soft stop is 0, x - position + q v = 0.
-double ErrorBounds::place_of(const RecordedEvent<2>& event) const {
-  if (event.side == Side::none) return event.place;
-  const double position = event.side == Side::upper ? stops_.upper : stops_.lower;
-  if (event.kind != Kind::separation && event.kind != Kind::renewal) return position;
-  return position - motion::soft_stop_at<double>(stops_, event.side).relaxation() * event.velocity();
-}
-/// The acceleration before an event, at which no soft stop pushes.
-double ErrorBounds::acceleration(const RecordedEvent<2>& event) const {
-  return oscillator_.forcing * std::sin(oscillator_.frequency * event.time + phase_) +
-         constant_force(oscillator_, place_of(event)) - 2 * oscillator_.damping * event.velocity() -
-         (event.velocity() > 0   ? friction_.kinetic
-          : event.velocity() < 0 ? -friction_.kinetic
-                                 : 0.0);
-}
-
 ClaimedEvent ErrorBounds::claimed(const RecordedEvent<2>& event, const ClaimedEvent* before) const {
-  if (event.side == Side::none) return claimed_turn(event);
+  if (event.side == Side::none) {
+    const StateError error = error_after(event.derivative, event.rounding, size_);
+    return claimed_turn(event, error.x, error.v);
+  }
   if (event.lasts()) return claimed_stay(event, before);
   const bool after_rest = before != nullptr && (before->kind == Kind::rest || before->kind == Kind::stick);
-  return claimed_contact(
-      event, before == nullptr ? event.time : begin_ + event.time - (after_rest ? before->then : before->time).value);
-}
-
-/// The instant at which x, or x + q v where the force of a soft stop passes 0, reaches a place.
-ClaimedEvent ErrorBounds::claimed_contact(const RecordedEvent<2>& event, double since) const {
+  const double since =
+      before == nullptr ? event.time : begin_ + event.time - (after_rest ? before->then : before->time).value;
   const StateError error = error_after(event.derivative, event.rounding, size_ * since);
-  const double a = acceleration(event);
-  double off = error.x, rate = std::abs(event.velocity());
-  if (event.kind == Kind::separation || event.kind == Kind::renewal) {
-    const double q = motion::soft_stop_at<double>(stops_, event.side).relaxation();
-    off += q * error.v, rate = std::abs(event.velocity() + q * a);
-  }
-  const double late = off / rate + time_error(event.time);
-  return {event.kind, event.side, {begin_ + event.time, late}, {event.velocity(), error.v + std::abs(a) * late}};
+  return claimed_contact(event, error.x, error.v, acceleration_at(event.time, place_of(event), event.velocity()));
 }
 
 ClaimedEvent ErrorBounds::claimed_stay(const RecordedEvent<2>& event, const ClaimedEvent* before) const {
@@ -80,58 +52,11 @@ ClaimedEvent ErrorBounds::claimed_stay(const RecordedEvent<2>& event, const Clai
   const double late = after_chatter                             ? before->then.error
                       : follows && before->kind == Kind::impact ? before->time.error
                                                                 : time_error(event.time);
-  const double end =
-      event.kind == Kind::rest ? release_error(event, place_of(event), 0.0) : chatter_error(event, before);
+  const double place = place_of(event), R = restitution_at<double>(stops_, event.side).share_at_rest();
+  const double push = std::abs(acceleration_at(event.time, place, event.velocity()));
+  const double end = event.kind == Kind::rest ? release_error(event, place, 0.0)
+                                              : chatter_error(event, before, R, push, friction_.kinetic);
   return {event.kind, event.side, {begin_ + event.time, late}, {begin_ + event.end(), end}};
-}
-
-/// The velocity falls to 0 the later the slower it does: a mass that turns back is pushed that way, one that sticks may
-/// be pushed on by less than the friction.
-ClaimedEvent ErrorBounds::claimed_turn(const RecordedEvent<2>& event) const {
-  const StateError error = error_after(event.derivative, event.rounding, size_);
-  const double push = std::abs(push_at(event.time, event.place)), mu = friction_.kinetic;
-  const bool turns = event.kind == Kind::reversal || push >= mu;
-  const double late = error.v / (turns ? push + mu : mu - push) + time_error(event.time);
-  ClaimedEvent claim{event.kind, Side::none, {begin_ + event.time, late}, {}, {event.place, error.x}};
-  if (event.kind == Kind::stick) claim.then = {begin_ + event.end(), release_error(event, event.place, error.x)};
-  return claim;
-}
-
-/// The flights of a chatter last S v together, 2 v/(a (1 - R)) without friction (eqs. 24 and 63): its end is off by the
-/// error of its first impact and by that of its speed.
-double ErrorBounds::chatter_error(const RecordedEvent<2>& event, const ClaimedEvent* before) const {
-  const double R = restitution_at<double>(stops_, event.side).share_at_rest();
-  double error = of_chatter * event.length + time_error(event.end());
-  if (before == nullptr) return error;
-  const double push = std::abs(acceleration(event)), up = push + friction_.kinetic, down = push - friction_.kinetic;
-  const double flights = (1 / up + 1 / std::sqrt(up * down)) / (1 - R * std::sqrt(down / up));
-  return error + before->time.error + R * flights * before->then.error;
-}
-
-/// The force that holds the mass falls to 0 the later the slower it changes, and of a stick the further the spring has
-/// to be overcome (eq. 65); where nothing releases the mass, the end is that of the motion.
-double ErrorBounds::release_error(const RecordedEvent<2>& event, double x, double x_error) const {
-  const double force = std::abs(push_at(event.end(), x)) - friction_.static_level;
-  const double largest = std::abs(oscillator_.forcing) + std::abs(oscillator_.load) +
-                         std::abs(oscillator_.stiffness * x) + friction_.static_level;
-  const double rate =
-      std::abs(oscillator_.forcing * oscillator_.frequency * std::cos(oscillator_.frequency * event.end() + phase_));
-  if (!(std::abs(force) <= of_chatter * largest)) return time_error(event.end());
-  return time_error(event.end()) + (of_state * largest + stiffness_at(x) * x_error) / rate;
-}
-/// The force on a mass at x' = 0, and the stiffness that acts on it, those of a soft stop included.
-double ErrorBounds::push_at(double time, double x) const {
-  double push = oscillator_.forcing * std::sin(oscillator_.frequency * time + phase_) + constant_force(oscillator_, x);
-  if (const Side within = soft_stop_beyond(stops_, x); within != Side::none) {
-    const auto stop = motion::soft_stop_at<double>(stops_, within);
-    push -= stop.stiffness * (x - stop.position);
-  }
-  return push;
-}
-double ErrorBounds::stiffness_at(double x) const {
-  const Side within = soft_stop_beyond(stops_, x);
-  const double k = std::abs(oscillator_.stiffness);
-  return within == Side::none ? k : k + motion::soft_stop_at<double>(stops_, within).stiffness;
 }
 
 ClaimedEnd ErrorBounds::claimed_end(const RecordedMotion<2>& motion) const {

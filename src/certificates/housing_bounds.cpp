@@ -60,35 +60,47 @@ Sizes HousingBounds::error_after(const Map& derivative, const Sizes& rounding) c
   return error;
 }
 
-/// The acceleration of the main mass alone at an event, and of both as one at the end of a press.
-double HousingBounds::acceleration(const RecordedEvent<4>& event) const {
-  if (event.kind == Kind::rest) return loose_.load;
-  return oscillator_.forcing * std::sin(oscillator_.frequency * event.time + phase_) +
-         constant_force(oscillator_, event.main.place) - 2 * oscillator_.damping * event.main.before;
+motion::Event::Main HousingBounds::main_at(const RecordedEvent<4>& event) {
+  return event.of_wall ? event.main : motion::Event::Main{event.place, event.before, event.after};
+}
+
+double HousingBounds::acceleration(const RecordedEvent<4>& event, bool pressed) const {
+  const auto [x, v, after] = main_at(event);
+  double a = acceleration_at(event.time, x, v);
+  if (const auto within = motion::soft_stop_around<double>(stops_, x, v); within.pressed) {
+    const auto stop = motion::soft_stop_at<double>(stops_, within.side);
+    a -= stop.stiffness * within.offset + 2 * stop.damping * v;
+  }
+  return pressed ? (a + loose_.ratio * loose_.load) / (1 + loose_.ratio) : a;
 }
 
 ClaimedEvent HousingBounds::claimed(const RecordedEvent<4>& event, const ClaimedEvent* before) const {
-  if (event.kind == Kind::impact) return claimed_impact(event);
-  ClaimedEvent claim{event.kind, event.side, {begin_ + event.time, time_error(event.time)}, {begin_ + event.end(), 0}};
-  if (event.kind == Kind::rest) {
-    if (before != nullptr) claim.time.error = before->kind == Kind::chatter ? before->then.error : before->time.error;
-    claim.then.error = release_error(event);
-    return claim;
+  const Sizes error = error_after(event.derivative, event.rounding);
+  if (event.side == Side::none) return claimed_turn(event, error[0], error[1]);
+  if (event.lasts()) return claimed_stay(event, before);
+  if (event.of_wall) {  // the instant at which z reaches a wall
+    const double force = std::abs(loose_.load - acceleration(event));
+    return claimed_contact(event, error[2], event.velocity(), error[3], force);
   }
-  const double R = motion::WallRule<double>(loose_).law(event.side).share_at_rest(),
-               force = std::abs(loose_.load - acceleration(event));
-  claim.time.error = before->time.error;
-  claim.then.error = of_chatter * event.length + time_error(event.end()) + before->time.error +
-                     2 * R / (force * (1 - R)) * before->then.error;
-  return claim;
+  const ClaimedEvent alone = claimed_contact(event, error[0], error[1], acceleration(event));
+  if (before == nullptr || !is_cut(*before, alone)) return alone;
+  return claimed_contact(event, error[0], error[1], acceleration(event, true));
 }
 
-/// The instant at which z reaches a wall.
-ClaimedEvent HousingBounds::claimed_impact(const RecordedEvent<4>& event) const {
-  const Sizes error = error_after(event.derivative, event.rounding);
-  const double late = error[2] / event.speed() + time_error(event.time);
-  const double force = std::abs(loose_.load - acceleration(event));
-  return {event.kind, event.side, {begin_ + event.time, late}, {event.before, error[3] + force * late}};
+ClaimedEvent HousingBounds::claimed_stay(const RecordedEvent<4>& event, const ClaimedEvent* before) const {
+  ClaimedEvent claim{event.kind, event.side, {begin_ + event.time, time_error(event.time)}, {begin_ + event.end(), 0}};
+  claim.of_wall = event.of_wall;
+  if (before != nullptr) claim.time.error = before->kind == Kind::chatter ? before->then.error : before->time.error;
+  if (event.kind == Kind::rest) {
+    claim.then.error = event.of_wall ? release_error(event) : Bounds::release_error(event, place_of(event), 0.0);
+    return claim;
+  }
+  const auto law =
+      event.of_wall ? motion::WallRule<double>(loose_).law(event.side) : restitution_at<double>(stops_, event.side);
+  const double push =
+      event.of_wall ? std::abs(loose_.load - acceleration(event)) : std::abs(push_at(event.time, place_of(event)));
+  claim.then.error = chatter_error(event, before, law.share_at_rest(), push, event.of_wall ? 0.0 : friction_.kinetic);
+  return claim;
 }
 
 /// x'' of both masses as one reaches the acceleration of the loose one the later, the slower it changes (eq. 72); a
@@ -97,11 +109,15 @@ double HousingBounds::release_error(const RecordedEvent<4>& event) const {
   constexpr double same = 1e-12;
   if (event.end() >= duration_ * (1 - same)) return time_error(event.end());
   const Sizes error = error_after(event.derivative, event.rounding);
-  const auto& [h, f, nu, load, k] = oscillator_;
-  const double both = 1 + loose_.ratio, cosine = std::cos(nu * event.end() + phase_);
-  const double jerk = std::abs(f * nu * cosine - 2 * h * acceleration(event) - k * event.main.before) / both;
-  const double forces =
-      std::abs(f) + std::abs(load) + 2 * h * std::abs(event.main.before) + std::abs(k * event.main.place);
+  const auto& [place, v, after] = event.main;
+  double h = oscillator_.damping, k = oscillator_.stiffness, forces = std::abs(oscillator_.load);
+  if (const auto within = motion::soft_stop_around<double>(stops_, place, v); within.pressed) {
+    const auto stop = motion::soft_stop_at<double>(stops_, within.side);
+    h += stop.damping, k += stop.stiffness, forces += std::abs(stop.stiffness * stop.position);
+  }
+  const double f = oscillator_.forcing, nu = oscillator_.frequency, both = 1 + loose_.ratio;
+  const double jerk = std::abs(f * nu * std::cos(nu * event.end() + phase_) - 2 * h * loose_.load - k * v) / both;
+  forces += std::abs(f) + 2 * h * std::abs(v) + std::abs(k * place);
   const double of_force =
       2 * h * error[1] + std::abs(k) * error[0] + of_arithmetic * (forces / both + std::abs(loose_.load));
   return time_error(event.end()) + of_force / jerk;

@@ -25,7 +25,12 @@ Growth<4>::Map in_housing(const motion::LooseJacobian& map) {
   return changed;
 }
 
-/// The events of a record with their derivatives; a press that sections cut is one.
+bool are_alike(const motion::Event& one, const motion::Event& other) {
+  return one.kind == other.kind && one.side == other.side && one.of_wall == other.of_wall;
+}
+
+/// The events of a record with their derivatives; a rest, a stick or a press that sections cut is one. The sum of a
+/// chatter of the main mass that rounding has ended lasts no time.
 std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, Growth<4>& growth) {
   constexpr double same_time = 1e-9;
   std::vector<RecordedEvent<4>> events;
@@ -34,12 +39,15 @@ std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, G
     const motion::Event& event = recorder.events[i];
     growth.pass(in_housing(recorder.loose_derivatives[i]), std::min(1.0, event.end() - since));
     since = event.end();
-    const bool goes_on = event.kind == Kind::rest && !events.empty() && events.back().kind == Kind::rest &&
-                         events.back().side == event.side &&
+    if (event.kind == Kind::chatter && event.length <= same_time * (1 + event.time)) continue;
+    const bool goes_on = event.lasts() && !events.empty() && are_alike(events.back(), event) &&
                          event.time - events.back().end() <= same_time * (1 + event.time);
     RecordedEvent<4> recorded{event, growth.derivative(), growth.rounding()};
     if (goes_on) {
-      recorded.time = events.back().time, recorded.length = event.end() - recorded.time;
+      const RecordedEvent<4>& before = events.back();
+      recorded.time = before.time, recorded.length = event.end() - recorded.time;
+      // a stick begins the later, the more the velocity before it is off, of which it leaves nothing
+      if (event.is_stick()) recorded.derivative = before.derivative, recorded.rounding = before.rounding;
       events.pop_back();
     }
     events.push_back(recorded);
@@ -61,7 +69,7 @@ std::vector<RecordedEvent<4>> with_chatters(std::vector<RecordedEvent<4>> events
     std::size_t first = list.size();
     double fastest = 0.0;
     while (event.kind == Kind::rest && first > 0 && list[first - 1].kind == Kind::impact &&
-           list[first - 1].side == event.side)
+           list[first - 1].of_wall == event.of_wall && list[first - 1].side == event.side)
       fastest = std::max(fastest, list[--first].speed());
     std::size_t last = first;
     while (last < list.size() && !(std::abs(list[last].after) < slow * fastest)) ++last;

@@ -24,8 +24,8 @@ struct MachineState {
   return size_of({a.x - b.x, a.v - b.v, a.z - b.z, a.w - b.w});
 }
 
-/// An event of a motion of n numbers: (x, x'), with a loose mass (x, x', z, z'). Of a loose mass it is one of a mass
-/// between stops, which its walls are: a press is a rest.
+/// An event of a motion of n numbers: (x, x'), with a loose mass (x, x', z, z'). Of a wall it is told as one of a mass
+/// between stops: a press is a rest.
 template <std::size_t n>
 struct RecordedEvent : motion::Event {
   typename Growth<n>::Map derivative{};  ///< of the state before it, of a press at its end, by that at the start

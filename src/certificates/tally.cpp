@@ -19,8 +19,12 @@ std::string reason_of(const CertifiedPoint& point) {
       return "one of a family";
     case Without::cut_chatter:
       return "cut within a chatter";
-    case Without::both_masses:
-      return "with events of both masses";
+    case Without::loose_friction:
+      return "with friction of the loose mass";
+    case Without::both_held:
+      return "with both masses held at once";
+    case Without::one_instant:
+      return "with two events at one instant";
     case Without::no_such_claim:
       return "special without a claim of its kind";
     case Without::rounding:

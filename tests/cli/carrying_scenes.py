@@ -60,3 +60,29 @@ def carrying(draw):
 def carrying_scenes(count, seed):
     draw = random.Random(f"loose {seed}")
     return [carrying(draw) for _ in range(count)]
+
+
+def beside_stops(draw, keys):
+    """The same between stops of the main mass, rigid or soft, with friction, without a spring or pushed away by it."""
+    keys = {name: value for name, value in keys.items() if name != "base_amplitude"}
+    sides = draw.choice((("lower",), ("upper",), ("lower", "upper"), ("lower", "upper")))
+    for side in sides:
+        keys[f"stop_{side}"] = draw.uniform(0.1, 1.2) * (1 if side == "upper" else -1)
+        if draw.random() < 0.5:
+            keys[f"stop_stiffness_{side}"] = logarithmic(draw, 2, 60)
+            keys[f"stop_damping_{side}"] = draw.choice([0.0, draw.uniform(0, 1)])
+        else:
+            keys[f"R_{side}"] = draw.choice([0.0, 1.0, *(draw.uniform(0.1, 1) for _ in range(4))])
+    low, high = keys.get("stop_lower", -math.inf), keys.get("stop_upper", math.inf)
+    keys["x0"] = min(max(keys["x0"], low + 0.01), high - 0.01)
+    if draw.random() < 0.3:
+        keys["stiffness"] = draw.choice([0.0, -draw.uniform(0.05, 0.5)])
+    if draw.random() < 0.3:
+        keys["friction"] = logarithmic(draw, 0.01, 0.3)
+        keys["friction_static"] = keys["friction"] * draw.choice([1.0, draw.uniform(1, 1.5)])
+    return keys
+
+
+def carrying_scenes_beside_stops(count, seed):
+    draw = random.Random(f"loose beside stops {seed}")
+    return [beside_stops(draw, keys) for keys in carrying_scenes(count, seed)]

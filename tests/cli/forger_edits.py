@@ -6,8 +6,8 @@ An edit may leave a certificate true; a judge tells which are surely false.
 import copy
 import math
 
+from claimed_events import holder_of_R, place_name
 from forger_judge import LAST, OTHER, Unreliable, number, period_of
-from forgeries import holder_of_R
 
 
 def widened(certificate, error):
@@ -91,8 +91,19 @@ def join(events, draw):
 
 def other_stop(events, draw):
     at = draw.randrange(len(events))
-    if "stop" in events[at]:
-        events[at]["stop"] = OTHER[events[at]["stop"]]
+    name = place_name(events[at])
+    if name in events[at]:
+        events[at][name] = OTHER[events[at][name]]
+
+
+def other_mass(events, draw):
+    """An event of one mass becomes one of the other."""
+    at = draw.randrange(len(events))
+    for name, other, speed, other_speed in (("stop", "wall", "v", "w"), ("wall", "stop", "w", "v")):
+        if name in events[at]:
+            renamed = {name: other, speed: other_speed}
+            events[at] = {renamed.get(key, key): value for key, value in events[at].items()}
+            return
 
 
 def end_of_another(events, draw):
@@ -102,7 +113,7 @@ def end_of_another(events, draw):
 
 
 LISTS = [leave_out, leave_out_a_chatter, double, double_a_last, begin_at_the_end, exchange, shift, split, join]
-LISTS += [other_stop, end_of_another]
+LISTS += [other_stop, other_mass, end_of_another]
 
 
 def more_periods(certificate, draw):
@@ -233,7 +244,7 @@ def claimed_from(events, scene, draw, error):
     """Claims of the events of a simulated motion, of whose chatters some impacts are listed."""
     claims = []
     for event in events:
-        rigid = holder_of_R(scene, event.get("stop"))
+        rigid = holder_of_R(scene, event)
         if event["event"] in ("rest", "press") and claims and number(rigid["R"]) > 0:
             series = len(claims)
             while series > 0 and claims[series - 1]["event"] in ("impact", "reversal"):

@@ -1,82 +1,161 @@
 """The same as forger_motion of a main mass that carries a loose one."""
 
+import math
+
 import numpy as np
 
-from forger_motion import SIGN, SLOW, Flow, Unreliable, first_fall, number
+from forger_motion import SIGN, SLOW, Flow, Motion, Unreliable, first_fall, number
 
 
-class HousedMotion:
+class HousedMotion(Motion):
     """Events and pieces of both masses up to an end; places are those of the main mass."""
 
     def __init__(self, scene, start, end):
-        h, k, f, nu, phase, load = (number(scene[name]) for name in ("h", "k", "f", "nu", "phase", "load"))
         loose = scene["loose"]
         self.mass, self.load = number(loose["mass"]), number(loose["load"])
         self.walls = {side: number(loose[side]["position"]) for side in SIGN if side in loose}
         self.restitution = {side: number(loose[side].get("R", loose.get("R"))) for side in self.walls}
-        whole, self.share = 1 + self.mass, self.mass / (1 + self.mass)
-        self.alone = Flow(h, k, f, nu, phase, load)
-        self.both = Flow(h / whole, k / whole, f / whole, nu, phase, (load + self.mass * self.load) / whole)
-        self.end, self.events, self.pieces = end, [], []
-        value = {name: number(x[0] if isinstance(x, list) else x) for name, x in start.items() if name in "xvzw"}
-        self.t, self.x, self.v, self.pressed = number(start["time"]), value["x"], value["v"], start.get("pressed")
-        self.z, self.w = (self.walls[self.pressed], 0.0) if self.pressed else (value["z"], value["w"])
-        if not self.pressed and any(SIGN[s] * (self.z - place) > -1e-9 for s, place in self.walls.items()):
-            raise Unreliable("a start on a wall")
-        for _ in range(600):
-            if self.t >= end:
-                return
-            self.press() if self.pressed else self.fly()
-        raise Unreliable("hundreds of events")
+        self.share, self.pressed, self.since = self.mass / (1 + self.mass), start.get("pressed"), number(start["time"])
+        self.was_pressed = self.struck_on = None
+        self.name = "wall" if {"lower", "upper", "friction"} & scene.keys() else "stop"
+        if self.pressed:
+            self.z, self.w = self.walls[self.pressed], 0.0
+        else:
+            self.z, self.w = (number(start[n][0] if isinstance(start[n], list) else start[n]) for n in "zw")
+        super().__init__(scene, start, end)
 
-    def place(self, start, t):
-        t0, x0, v0, z0, w0 = start
-        x, v = self.alone.at((t0, x0, v0), t)
-        s = t - t0
-        y, rate = x0 + z0 + (v0 + w0) * s + self.load * s * s / 2, v0 + w0 + self.load * s
-        return x, v, y - x, rate - v
+    def begin(self, start):
+        super().begin(start)
+        for side, place in self.walls.items():
+            depth, into = SIGN[side] * (self.z - place), SIGN[side] * self.w
+            if self.pressed or depth < -1e-9:
+                continue
+            if depth != 0 or self.events or self.mode == "rest" or 0 < into < 1e-3:
+                raise Unreliable("a start on a wall")
+            if into > 0:
+                self.strike(side)
+            elif into == 0 and self.push_on(side) > 0:
+                self.pressed = side
 
-    def fly(self):
-        start, sides = (self.t, self.x, self.v, self.z, self.w), list(self.walls)
-        margins = [lambda t, s=side: -SIGN[s] * (self.place(start, t)[2] - self.walls[s]) for side in sides]
-        self.t, index = first_fall(margins, self.t, self.end, self.alone.step)
-        self.pieces.append((start[0], self.t, lambda t: self.place(start, t)))
-        self.x, self.v, self.z, self.w = (float(x[0]) for x in self.place(start, np.array([self.t])))
-        if index is not None:
-            self.strike(sides[index])
+    def flow(self, heading=None):
+        alone = super().flow(heading)
+        if not self.pressed:
+            return alone
+        whole, load = 1 + self.mass, alone.load + self.mass * self.load
+        return Flow(alone.h / whole, alone.k / whole, alone.f / whole, alone.nu, alone.phase, load / whole)
+
+    def beside(self, flow):
+        """The states at some times of a flight from now on; None: something holds the main mass."""
+        start, z0, w0, wall = (self.t, self.x, self.v), self.z, self.w, self.pressed
+
+        def at(t):
+            x, v = flow.at(start, t) if flow else (start[1] + 0 * t, 0 * t)
+            if wall:
+                return x, v, self.walls[wall] + 0 * t, 0 * t
+            s = t - start[0]
+            y, rate = start[1] + z0 + (start[2] + w0) * s + self.load * s * s / 2, start[2] + w0 + self.load * s
+            return x, v, y - x, rate - v
+
+        return at
+
+    def advance(self):
+        held = self.mode in ("rest", "stick")
+        if held and self.pressed:
+            raise Unreliable("both masses are held")
+        flow = None if held else self.flow()
+        at = self.beside(flow)
+        names, margins = self.of_held() if held else self.margins(flow, (self.t, self.x, self.v))
+        if self.pressed:
+            names.append(("let go", self.pressed))
+            margins.append(lambda t: SIGN[self.pressed] * (self.load - flow.push(t, *at(t)[:2])))
+        else:
+            for side, place in self.walls.items():
+                names.append(("strike", side))
+                # from where it leaves a wall on, rounding isn't taken for a strike
+                rounding = (1e-15 if self.w else 1e-12) if abs(self.z - place) < 1e-15 else 0
+                margins.append(lambda t, s=side, place=place, off=rounding: SIGN[s] * (place - at(t)[2]) + off)
+        begun = self.t
+        self.t, index = first_fall(margins, begun, self.end, Motion.flow(self, heading=0).step)
+        self.pieces.append((begun, self.t, at))
+        self.x, self.v, self.z, self.w = (float(x[0]) for x in at(np.array([self.t])))
+        name, side = names[index] if index is not None else ("end", None)
+        if self.pressed and name != "leave":
+            self.tell("press", **{self.name: self.pressed}, time=self.since, until=self.t)
+        if held:
+            self.let_main_go(begun, name, side)
+        if name == "strike":
+            self.strike(side)
+        elif name == "let go":
+            self.pressed = None
+        elif not held and name != "end":
+            self.cross(name, side)
+
+    def of_held(self):
+        """What lets a main mass go that a stop or friction holds."""
+        if self.mode == "rest":
+            return [("release", -SIGN[self.side])], [lambda t: self.pressing(self.side, t)]
+        mode, self.mode = self.mode, self.held
+        flow, x = self.flow(heading=0), self.x
+        self.mode = mode
+        ways = (1, -1)
+        return [("release", way) for way in ways], [
+            lambda t, way=way: self.mu_static - way * flow.push(t, x) for way in ways
+        ]
+
+    def let_main_go(self, begun, name, way):
+        if self.mode == "rest":
+            self.tell("rest", stop=self.side, time=begun, until=self.t)
+        else:
+            self.tell("stick", time=begun, until=self.t, x=self.x)
+        if name == "end":
+            return
+        on_stop = self.side if self.mode == "rest" else None
+        self.mode = "free" if on_stop else self.held
+        if name == "release":
+            self.heading = way if self.mu_static else 0
+        self.struck_on = on_stop
+
+    def push_on_still_mass(self):
+        """Of both masses, if a wall has pressed the loose one up to now."""
+        return super().push_on_still_mass() + (self.mass * self.load if self.was_pressed else 0)
+
+    def cross(self, name, side):
+        before, pressed = self.v, self.pressed
+        self.pressed, self.was_pressed = None, pressed
+        super().cross(name, side)
+        self.w += before - self.v if name != "still" else 0
+        if name == "leave":
+            self.pressed = pressed
+        elif pressed and (SIGN[pressed] * self.w > 0 or self.mode in ("rest", "stick")):
+            raise Unreliable("two events at once")
+        elif pressed and self.w == 0 and self.push_on(pressed) > 0:
+            self.pressed, self.since = pressed, self.t
+
+    def push_on(self, side):
+        """The acceleration with which a loose mass on a wall is driven into it."""
+        push = SIGN[side] * (self.load - Motion.flow(self).push(self.t, self.x, self.v))
+        if abs(push) < 1e-6:
+            raise Unreliable("whether a wall presses")
+        return push
 
     def strike(self, side):
-        self.events.append({"event": "impact", "stop": side, "time": self.t, "w": self.w})
-        push = SIGN[side] * (self.load - self.alone.push(self.t, self.x, self.v))
+        self.tell("impact", **{self.name: side}, time=self.t, w=self.w)
         self.z, R = self.walls[side], self.restitution[side]
-        rests = abs(R * self.w) < SLOW and push > 1e-6
+        before, rests = self.v, False
+        if abs(R * self.w) < SLOW:
+            self.v += self.share * self.w
+            rests = self.push_on(side) > 0
         if abs(R * self.w) < SLOW and not rests and R > 0:
             raise Unreliable("whether a wall presses")
-        self.v += (1 + (0 if rests else R)) * self.share * self.w
+        self.v = before + (1 + (0 if rests else R)) * self.share * self.w
         self.w = 0.0 if rests else -R * self.w
-        self.pressed = side if rests else None
-
-    def press(self):
-        side, begun, start = self.pressed, self.t, (self.t, self.x, self.v)
-
-        def force(t):
-            x, v = self.both.at(start, t)
-            return SIGN[side] * (self.load - self.both.push(t, x, v))
-
-        self.t, index = first_fall([force], begun, self.end, self.both.step)
-        wall = self.walls[side]
-        self.events.append({"event": "press", "stop": side, "time": begun, "until": self.t})
-        self.pieces.append((begun, self.t, lambda t: (*self.both.at(start, t), wall + 0 * t, 0 * t)))
-        self.x, self.v = (float(x[0]) for x in self.both.at(start, np.array([self.t])))
-        self.z, self.w = wall, 0.0
-        self.pressed = side if index is None else None
-
-    def state(self, t):
-        for begin, end, at in self.pieces:
-            if begin <= t <= end:
-                return tuple(float(x[0]) for x in at(np.array([t])))
-        raise Unreliable("a time outside the motion")
-
-    def extrema(self):
-        places = [at(np.linspace(begin, end, 300))[0] for begin, end, at in self.pieces if end > begin]
-        return float(min(p.min() for p in places)), float(max(p.max() for p in places))
+        self.pressed, self.since = (side, self.t) if rests else (None, self.t)
+        if self.struck_on and SIGN[self.struck_on] * self.v > 0:
+            raise Unreliable("two events at once")
+        self.struck_on = None
+        self.heading = int(np.sign(self.v)) if self.mu_static else 0
+        if self.mode in ("contact", "beyond"):
+            stop, sign = self.stops[self.side], SIGN[self.side]
+            q = 2 * stop["damping"] / math.sqrt(stop["stiffness"])
+            if (sign * (self.x + q * self.v - stop["position"]) > 0) != (self.mode == "contact"):
+                raise Unreliable("two events at once")

@@ -139,10 +139,10 @@ class Judge:
         for index, claim in enumerate(self.forgery["events"]):
             kind = claim["event"]
             if kind == "chatter":
-                side, before = claim["stop"], at
-                while at < len(true) and (true[at]["event"] == "reversal" or self.is_impact(true[at], side)):
+                before = at
+                while at < len(true) and (true[at]["event"] == "reversal" or self.is_impact(true[at], claim)):
                     at += 1
-                rests = at < len(true) and true[at]["event"] in ("rest", "press") and true[at]["stop"] == side
+                rests = at < len(true) and true[at]["event"] in ("rest", "press") and self.are_alike(true[at], claim)
                 if not rests or (index and self.forgery["events"][index - 1]["event"] == "chatter"):
                     return f"event {index + 1}: no chatter begins"
                 if beyond(claim["until"], true[at]["time"], tolerance):
@@ -153,7 +153,7 @@ class Judge:
             if at == len(true):
                 return f"event {index + 1}: nothing happens any more"
             fact = true[at]
-            if kind != fact["event"] or claim.get("stop") != fact.get("stop"):
+            if kind != fact["event"] or not self.are_alike(claim, fact):
                 return f"event {index + 1}: {fact['event']}"
             for name in {"time", "until", "v", "w", "x"} & claim.keys():
                 value = min(fact[name], end) if name == "until" else fact[name]
@@ -168,8 +168,11 @@ class Judge:
         return "it ends within a chatter" if last == "chatter" and true[-1]["time"] > end - 1e-9 else None
 
     @staticmethod
-    def is_impact(event, side):
-        return event["event"] == "impact" and event["stop"] == side
+    def are_alike(one, other):
+        return (one.get("stop"), one.get("wall")) == (other.get("stop"), other.get("wall"))
+
+    def is_impact(self, event, claim):
+        return event["event"] == "impact" and self.are_alike(event, claim)
 
     def of_periods(self):
         if not self.truth.periodic:
@@ -191,7 +194,7 @@ class Judge:
             events = events[rests[-1] + 1 :] + events[: rests[-1] + 1]
         word = []
         for event in events:
-            letter = event["stop"][0].upper()
+            letter = event["wall"][0] if "wall" in event else event["stop"][0].upper()
             if event["event"] in ("impact", "touch"):
                 word.append(letter)
             elif word and word[-1] == letter:
@@ -206,7 +209,7 @@ class Judge:
             return None
         letters = self.letters()
         if not letters:
-            return "a word without impacts" if set(word) & set("*") or word in ("L", "U", "LU", "UL") else None
+            return "a word without impacts" if set(word) & set("*") or word.upper() in ("L", "U", "LU", "UL") else None
         return None if word in {"".join(letters[i:] + letters[:i]) for i in range(len(letters))} else "another word"
 
     def of_extrema(self):

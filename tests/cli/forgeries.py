@@ -2,6 +2,8 @@
 
 import copy
 
+from claimed_events import contacts, holder_of_R, is_of_wall, place_name, rest_name, restitution, rests, speed_in
+
 BEYOND = 2  # a wrong number is off by so many times its error
 
 
@@ -14,34 +16,6 @@ def number(certificate, index, name):
     """Another value of a claimed number of an event."""
     certificate["events"][index][name] = off(certificate["events"][index][name])
     return certificate
-
-
-def speed_in(event):
-    """The name of the velocity that an event claims, if it does: of a loose mass that in its housing."""
-    return next((name for name in ("v", "w") if name in event), None)
-
-
-def contacts(certificate):
-    return [i for i, event in enumerate(certificate["events"]) if speed_in(event)]
-
-
-def rests(certificate):
-    return [i for i, event in enumerate(certificate["events"]) if event["event"] in ("rest", "press")]
-
-
-def holder_of_R(scene, stop):
-    """The object that has the restitution of a rigid stop, of a wall of a loose mass, or of both walls."""
-    housing = scene.get("loose", {})
-    return housing if "R" in housing else (housing or scene).get(stop, {})
-
-
-def restitution(certificate, event):
-    """That of a rigid stop, or of a wall of a loose mass."""
-    return holder_of_R(certificate["scene"], event["stop"])["R"]
-
-
-def rest_name(certificate):
-    return "press" if "loose" in certificate["scene"] else "rest"
 
 
 def wrong_speed(certificate):
@@ -69,14 +43,38 @@ def contact_put_in(certificate):
 
 
 def wrong_stop(certificate):
-    scene = certificate["scene"]
-    housing = scene.get("loose", scene)
-    if not ("lower" in housing and "upper" in housing) or ("R" in housing["lower"]) != ("R" in housing["upper"]):
-        return None
-    for index in contacts(certificate)[:1]:
-        event = certificate["events"][index]
-        event["stop"] = {"lower": "upper", "upper": "lower"}[event["stop"]]
+    for event in (certificate["events"][index] for index in contacts(certificate)[:1]):
+        scene = certificate["scene"]
+        of = scene["loose"] if is_of_wall(certificate, event) else scene
+        if not ("lower" in of and "upper" in of) or ("R" in of["lower"]) != ("R" in of["upper"]):
+            return None
+        name = place_name(event)
+        event[name] = {"lower": "upper", "upper": "lower"}[event[name]]
         return certificate
+
+
+def wall_for_stop(certificate):
+    """An event of one mass is claimed as one of the other."""
+    for event in certificate["events"]:
+        name, speed = place_name(event), speed_in(event)
+        scene = certificate["scene"]
+        if event["event"] != "impact" or "loose" not in scene or not ({"lower", "upper"} & scene.keys()):
+            continue
+        of, other = (scene, ("stop", "v")) if name == "wall" else (scene["loose"], ("wall", "w"))
+        if "stiffness" not in of.get(event[name], {"stiffness": 1}):
+            event[other[0]], event[other[1]] = event.pop(name), event.pop(speed)
+            return certificate
+
+
+def events_exchanged(certificate):
+    """One of each mass, without their times."""
+    events = certificate["events"]
+    for one, other in zip(events, events[1:]):
+        if {place_name(one), place_name(other)} == {"stop", "wall"} and speed_in(one) and speed_in(other):
+            one["time"], other["time"] = other["time"], one["time"]
+            at = events.index(one)
+            events[at], events[at + 1] = other, one
+            return certificate
 
 
 def twice_the_period(certificate):
@@ -112,8 +110,9 @@ def rest_that_is_none(certificate):
             until = [event["time"][0] + 1e-3, 1e-9]
             if restitution(certificate, event) == 0:  # it would rest at once
                 continue
-            chatter = {"event": "chatter", "stop": event["stop"], "time": event["time"], "until": until}
-            rest = {**chatter, "event": rest_name(certificate), "time": until, "until": [until[0] + 0.5, 1e-9]}
+            name = place_name(event)
+            chatter = {"event": "chatter", name: event[name], "time": event["time"], "until": until}
+            rest = {**chatter, "event": rest_name(certificate, event), "time": until, "until": [until[0] + 0.5, 1e-9]}
             certificate["events"][index + 1 :] = [chatter, rest]
             return certificate
 
@@ -123,9 +122,10 @@ def rest_where_the_force_pulls(certificate):
     events = certificate["events"]
     for index, event in enumerate(events):
         if event["event"] == "impact" and restitution(certificate, event) == 0:
-            if index + 1 == len(events) or events[index + 1]["event"] != rest_name(certificate):
+            kind, name = rest_name(certificate, event), place_name(event)
+            if index + 1 == len(events) or events[index + 1]["event"] != kind:
                 until = [event["time"][0] + 0.5, 1e-9]
-                rest = {"event": rest_name(certificate), "stop": event["stop"], "time": event["time"], "until": until}
+                rest = {"event": kind, name: event[name], "time": event["time"], "until": until}
                 events.insert(index + 1, rest)
                 return certificate
 
@@ -226,7 +226,7 @@ def wrong_restitution(certificate):
         return None
     for event in certificate["events"]:
         if event["event"] == "impact":
-            of = holder_of_R(certificate["scene"], event["stop"])
+            of = holder_of_R(certificate["scene"], event)
             of["R"] = of["R"] * 0.999 + 1e-4
             return certificate
 
@@ -300,6 +300,8 @@ FORGERIES = [
     contact_left_out,
     contact_put_in,
     wrong_stop,
+    wall_for_stop,
+    events_exchanged,
     twice_the_period,
     wrong_multiplier,
     rest_that_is_none,

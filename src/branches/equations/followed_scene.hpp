@@ -95,6 +95,11 @@ using Along = Dual<double, 1>;
 /// it goes along with the equilibrium.
 [[nodiscard]] bool keeps_symmetry(const FollowedScene& scene, Parameter parameter);
 
+/// Whether walls of a loose mass have letters of their own in words, beside those of stops.
+[[nodiscard]] inline bool tells_walls(const Scene& scene) {
+  return !has_loose_mass(scene.loose) || has_events_of_its_own(scene);
+}
+
 /// Whether the stiffness of the spring, per unit mass, changes with a parameter.
 [[nodiscard]] bool varies_stiffness(const FollowedScene& scene, Parameter parameter);
 

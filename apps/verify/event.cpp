@@ -1,4 +1,4 @@
-#include "followed.hpp"
+#include "event.hpp"
 
 namespace verify {
 
