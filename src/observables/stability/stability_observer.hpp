@@ -25,7 +25,7 @@ class Stability::Observer {
     if (has_friction(span.scene.friction)) graze_matters_ = false, rough_.emplace(span.scene, span.uncertainty);
     if (!has_loose_mass(span.scene.loose)) return;
     graze_matters_ = false, rough_.reset(), loose_.emplace(span.scene);
-    if (span.periodic) walls_.emplace(span.scene.loose, span.uncertainty);
+    if (span.periodic) walls_.emplace(span.scene, span.uncertainty);
   }
 
   /// `rounding` bounds the errors of displacements, and of velocities over the rate `pace`.

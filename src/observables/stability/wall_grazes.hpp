@@ -12,12 +12,16 @@
 namespace clatter::observables {
 
 /// Tells whether rounding decides if a loose mass meets a wall: it strikes the wall so slowly that it would turn back
-/// within rounding of it, or it does turn back there.
+/// within rounding of it, or it does turn back there. And whether it decides which comes first, that or a contact of
+/// the main mass with a stop.
 class WallGrazes {
  public:
   /// `rounding` bounds the errors of displacements.
-  WallGrazes(const LooseMass& loose, double rounding)
-      : inner_{.lower = loose.lower + rounding, .upper = loose.upper - rounding}, rounding_(rounding) {}
+  WallGrazes(const Scene& scene, double rounding)
+      : walls_{.lower = scene.loose.lower, .upper = scene.loose.upper},
+        inner_{.lower = scene.loose.lower + rounding, .upper = scene.loose.upper - rounding},
+        stops_{.lower = scene.stops.lower, .upper = scene.stops.upper},
+        rounding_(rounding) {}
 
   /// Of the arc of a main mass, what the loose one does meanwhile.
   template <motion::Housed A>
@@ -28,6 +32,8 @@ class WallGrazes {
     using Kind = motion::Event::Kind;
     if (event.kind == Kind::strike && event.before * event.before <= 2 * std::abs(turning_) * rounding_) grazes_ = true;
     if (event.kind == Kind::press) grazes_ = false;  // chatter, whose impacts are as slow as they like, is forgotten
+    if (event.kind == Kind::strike && comes_to(stops_, main_)) grazes_ = true;
+    if ((event.kind == Kind::impact || event.kind == Kind::touch) && comes_to(walls_, loose_)) grazes_ = true;
   }
 
   [[nodiscard]] bool found() const { return grazes_; }
@@ -39,7 +45,7 @@ class WallGrazes {
   template <Effects E>
   void look_at(const motion::RelativeArc<double, E>& arc, double length) {
     const motion::Motion<double> first = arc.start(), last = arc.at(length);
-    turning_ = last.a;
+    turning_ = last.a, loose_ = last, main_ = arc.main_at(last);
     const double begin = time_near(first, arc.constants().jerk(arc.main_at(first)), 1),
                  end = length - time_near(last, arc.constants().jerk(arc.main_at(last)), -1);
     if (!(begin < end && is_clear(arc.at(end)))) return;
@@ -52,7 +58,13 @@ class WallGrazes {
   void look_at(const motion::PolynomialInHousing<E>& arc, double length) {
     turning_ = arc.at(length).a;
   }
-  void look_at(const motion::Pressed&, double) {}
+  void look_at(const motion::Pressed&, double) { loose_ = main_ = {}; }
+
+  /// Whether a mass is at a stop, or a wall, to rounding, and comes to it faster than that.
+  [[nodiscard]] bool comes_to(const Stops& places, const motion::Motion<double>& m) const {
+    const double gap = m.v > 0 ? places.upper - m.x : m.x - places.lower;
+    return std::abs(gap) <= rounding_ && m.v * m.v > 2 * std::abs(m.a) * rounding_;
+  }
 
   [[nodiscard]] bool is_clear(const motion::Motion<double>& m) const {
     return m.x > inner_.lower && m.x < inner_.upper;
@@ -68,9 +80,10 @@ class WallGrazes {
                      std::cbrt(12 * clear / lead(-forwards * jerk))});
   }
 
-  Stops inner_;
+  Stops walls_, inner_, stops_;
   double rounding_;
-  double turning_ = 0.0;  ///< z'' at the end of the flight
+  motion::Motion<double> loose_{}, main_{};  ///< at the end of the flight
+  double turning_ = 0.0;                     ///< z'' at the end of the flight
   bool grazes_ = false;
 };
 
