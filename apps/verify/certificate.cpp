@@ -23,9 +23,7 @@ std::optional<Certificate::StopNumbers> stop_of(const Field& scene, const char* 
 }
 
 /// A loose mass and the walls of its housing.
-Certificate::LooseNumbers loose_of(const Field& scene, const Field& field) {
-  for (const char* const name : {"friction", "friction_static"})
-    if (const auto other = scene.find(name)) other->refuse("is given beside a loose mass", "leave it out");
+Certificate::LooseNumbers loose_of(const Field& field) {
   Certificate::LooseNumbers loose{
       field.get("mass").number_from(0, Field::infinity, false), {}, field.get("load").number(), {}};
   const auto both = field.find("R");
@@ -58,7 +56,7 @@ Certificate::SceneNumbers scene_of(const Field& field) {
   }
   if (scene.stops[0] && scene.stops[1] && !(scene.stops[0]->position < scene.stops[1]->position))
     field.refuse("has its lower stop above the upper one", "exchange them");
-  if (const auto loose = field.find("loose")) scene.loose = loose_of(field, *loose);
+  if (const auto loose = field.find("loose")) scene.loose = loose_of(*loose);
   return scene;
 }
 
@@ -95,8 +93,7 @@ void require_wall(const Field& field, const Certificate::SceneNumbers& scene, co
   if (event.kind != Kind::impact && event.kind != Kind::chatter && event.kind != Kind::press)
     field.refuse(std::string("is a ") + name_of(event.kind) + " beside a loose mass",
                  "write impact, chatter or press of a wall");
-  if (!scene.loose->walls[index_of(event.side)])
-    field.refuse("is an event of a wall", "the housing has none there");
+  if (!scene.loose->walls[index_of(event.side)]) field.refuse("is an event of a wall", "the housing has none there");
 }
 
 /// One of the main mass must be one of a stop that there is, of its kind.
@@ -116,9 +113,6 @@ void require_stop(const Field& field, const Certificate& certificate, const Clai
   if (!stop || stop->soft == of_rigid)
     field.refuse(std::string("is an event of a ") + (of_rigid ? "rigid" : "soft") + " stop",
                  "the scene has none there");
-  if (scene.loose && (event.kind == Kind::chatter || event.kind == Kind::rest))
-    field.refuse(std::string("is a ") + name_of(event.kind) + " of the main mass beside a loose one",
-                 "there is no claim of such motion");
 }
 
 void require_events(const Field& field, const Certificate& certificate) {

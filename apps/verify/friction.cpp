@@ -33,20 +33,22 @@ void Motion::become_still(const Ball& time) {
 
 /// The spring and the constant force that act on a still mass, those of a soft stop included.
 Motion::Spring Motion::spring() const {
-  if (mode_ == Mode::free) return {scene_.k, scene_.load};
-  const Stop& stop = scene_.stop(side_);  // it has come up to a still mass
-  return {scene_.k + stop.kappa, scene_.load + stop.kappa * stop.position};
+  const Scene& scene = acting();
+  if (mode_ == Mode::free) return {scene.k, scene.load};
+  const Stop& stop = scene.stop(side_);  // it has come up to a still mass
+  return {scene.k + stop.kappa, scene.load + stop.kappa * stop.position};
 }
 
 /// The side to which a still mass is let go, +1 or -1; 0: friction holds it.
 int Motion::way_of_push() const {
   const Four hull = set_.hull();
-  const Spring acting = spring();
-  const Ball sine = sin_cos(scene_.nu * hull[1] + scene_.phase).first;
-  const Ball push = scene_.f * sine + acting.load - acting.k * hull[0];
-  if (push > scene_.friction_static) return 1;
-  if (push < -scene_.friction_static) return -1;
-  if (!(abs(push) < scene_.friction_static)) throw Undecided("whether friction holds the mass");
+  const Scene& scene = acting();
+  const Spring spring_now = spring();
+  const Ball sine = sin_cos(scene.nu * hull[1] + scene.phase).first;
+  const Ball push = scene.f * sine + spring_now.load - spring_now.k * hull[0];
+  if (push > scene.friction_static) return 1;
+  if (push < -scene.friction_static) return -1;
+  if (!(abs(push) < scene.friction_static)) throw Undecided("whether friction holds the mass");
   return 0;
 }
 
@@ -54,60 +56,73 @@ int Motion::way_of_push() const {
 Event Motion::stop_moving(const Ball& end) {
   const Four hull = set_.hull();
   const int way = way_of_push();
+  if (way == 0 && pressed_) throw Undecided("friction that holds both masses");
   if (way == 0) return stay(end);
   if (way == heading_) throw Undecided("whether the motion stops at all");
   heading_ = way, still_for_ = 1;
   Event event{Kind::reversal, Side::lower, hull[1], Ball(0), Ball(0)};
   event.x = hull[0];
+  if (pressed_) press_on(event);
   return event;
 }
 
-/// Friction holds the mass up to the phase at which the force passes its level (eqs. 26 and 65), or to a time.
+/// The first phase from a time on at which the force passes the level of friction at a place (eqs. 26 and 65); nothing
+/// if it never does.
+std::optional<Motion::Release> Motion::release_to(int way, const Ball& time, const Ball& x) const {
+  if (scene_.f.is_zero()) return std::nullopt;
+  const Spring acting = spring();
+  const Ball sine = (acting.k * x - acting.load + Ball(way) * scene_.friction_static) / scene_.f;
+  if (abs(sine) > Ball(1)) return std::nullopt;
+  if (!(abs(sine) < Ball(1))) throw Undecided("whether the force ever overcomes friction");
+  const bool rises = (scene_.f * Ball(way)).is_positive();
+  const Ball theta = rises ? asin(sine) : Ball::pi() - asin(sine), cosine = sin_cos(theta).second;
+  const slong turns = ((scene_.nu * time + scene_.phase - theta) / (Ball(2) * Ball::pi())).floor() + 1;
+  const Ball whole = Ball(turns) * Ball(2) * Ball::pi();
+  return Release{way, (theta + whole - scene_.phase) / scene_.nu, acting.k / (scene_.f * scene_.nu * cosine)};
+}
+
+/// Friction holds the mass up to its release, a strike of a loose mass or a time.
 Event Motion::stay(const Ball& end) {
   const Four hull = set_.hull();
-  const Spring acting = spring();
   Event event{Kind::stick, Side::lower, hull[1], Ball(0), end};
   event.x = hull[0];
   other_places_.push_back(hull[0]);
-  sticks_ = false;
-  struct Release {
-    int way;
-    Ball time, slope;
-  };
-  const auto release = [&](int way, const Ball& time, const Ball& x) -> std::optional<Release> {
-    if (scene_.f.is_zero()) return std::nullopt;
-    const Ball sine = (acting.k * x - acting.load + Ball(way) * scene_.friction_static) / scene_.f;
-    if (abs(sine) > Ball(1)) return std::nullopt;
-    if (!(abs(sine) < Ball(1))) throw Undecided("whether the force ever overcomes friction");
-    const bool rises = (scene_.f * Ball(way)).is_positive();
-    const Ball theta = rises ? asin(sine) : Ball::pi() - asin(sine), cosine = sin_cos(theta).second;
-    const slong turns = ((scene_.nu * time + scene_.phase - theta) / (Ball(2) * Ball::pi())).floor() + 1;
-    const Ball whole = Ball(turns) * Ball(2) * Ball::pi();
-    return Release{way, (theta + whole - scene_.phase) / scene_.nu, acting.k / (scene_.f * scene_.nu * cosine)};
-  };
-  const auto up = release(1, hull[1], hull[0]), down = release(-1, hull[1], hull[0]);
+  sticks_ = true;
+  const auto up = release_to(1, hull[1], hull[0]), down = release_to(-1, hull[1], hull[0]);
   auto first = up ? up : down;
   if (up && down) {
     if (!(up->time < down->time) && !(down->time < up->time)) throw Undecided("to which side friction lets go");
     first = up->time < down->time ? up : down;
   }
-  Four there = set_.centre();
-  FourByFour derivative = FourByFour::identity();
-  derivative[1][1] = Ball(0);
-  if (!first || first->time > end) {
-    there[1] = Ball(0);
-    set_.move(there, derivative);
-    surface_.reset(), time_ = end, sticks_ = at_end_ = true;
-    return event;
+  const bool goes_on = !first || first->time > end;
+  if (!goes_on && !(first->time < end)) throw Undecided("whether friction lets the mass go before the end");
+  if (strikes_before(goes_on ? end : first->time)) {
+    event.until = due_->time;
+  } else if (goes_on) {
+    move_to_end(flight_from(state_of(hull)), end, Ball(0));
+    at_end_ = true;
+  } else {
+    move_to_release(*first);
+    sticks_ = false;
+    heading_ = first->way, still_for_ = scene_.is_let_go_gently ? 2 : 1;
+    event.until = set_.hull()[1];
   }
-  if (!(first->time < end)) throw Undecided("whether friction lets the mass go before the end");
-  const auto of_centre = release(first->way, there[1], there[0]);
-  if (!of_centre) throw Undecided("when friction lets the mass go");
-  there[1] = of_centre->time, derivative[1][0] = first->slope;
-  set_.move(there, derivative);
-  heading_ = first->way, still_for_ = scene_.is_let_go_gently ? 2 : 1;
-  event.until = set_.hull()[1];
   return event;
+}
+
+/// The later, the further the spring has to be overcome.
+void Motion::move_to_release(const Release& all) {
+  const State centre = state_of(set_.centre()), hull = state_of(set_.hull());
+  const auto of_centre = release_to(all.way, centre.time, centre.y[0]);
+  if (!of_centre) throw Undecided("when friction lets the mass go");
+  Four there = state_at(flight_from(centre).at(of_centre->time - centre.time));
+  const MachineFlight flight = flight_from(hull);
+  const Four rates = rates_at(flight.at(all.time - hull.time));
+  FourByFour derivative = over(all.time - hull.time) * into_flight(flight.at(Ball(0)));
+  for (std::size_t i = 2; i < 4; ++i) derivative[i][0] = derivative[i][0] + rates[i] * all.slope;
+  there[1] = of_centre->time, derivative[1] = {{all.slope, Ball(0), Ball(0), Ball(0)}};
+  set_.move(there, derivative);
+  surface_ = 1, loose_vanishing_ = 0;
 }
 
 /// What a slip must stay clear of: the stop ahead, or the end of its contact with a soft one, and standstill.

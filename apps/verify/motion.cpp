@@ -32,31 +32,33 @@ Scene both_of(Scene scene) {
   return scene;
 }
 
+Flow still_flow(Scene scene) {
+  scene.f = Ball(0);
+  return {Ball(0), Ball(0), Ball(0), scene};
+}
+
 }  // namespace
 
+Motion::Flows::Flows(const Scene& scene) : alone(flows_of(scene)), held(still_flow(scene)) {
+  if (scene.loose) both = both_of(scene), as_one = flows_of(*both);
+}
+
 Motion::Motion(const Scene& scene, const Start& start, const Four& width)
-    : scene_(scene),
-      flows_(std::make_shared<const Flows>(
-          Flows{flows_of(scene), scene.loose ? flows_of(both_of(scene)) : std::vector<Flow>()})),
-      start_time_(start.time) {
+    : scene_(scene), flows_(std::make_shared<const Flows>(scene)), start_time_(start.time) {
   begin_at(start, width);
 }
 
 Motion::Motion(const Scene& scene, const Family& family, const Start& start)
     : scene_(scene),
       family_(&family),
-      flows_(std::make_shared<const Flows>(Flows{flows_of(scene), {}})),
+      flows_(std::make_shared<const Flows>(scene)),
       moving_flows_(std::make_shared<const std::vector<BasicFlow<Dual>>>(flows_of(family.scene))),
       start_time_(start.time) {
   begin_at(start, Four::zero());
 }
 
 void Motion::begin_at(const Start& start, const Four& width) {
-  if (start.released) {
-    release(start.side, start.time, true);
-    start_time_ = time_.value;
-    return;
-  }
+  if (start.released) return start_with_release(start);
   Four from{{start.x, start.v, start.z, start.w}}, apart = width;
   if (start.pressed) {
     from[2] = scene_.loose->wall(*start.pressed), from[3] = apart[2] = apart[3] = Ball(0);
@@ -65,8 +67,8 @@ void Motion::begin_at(const Start& start, const Four& width) {
   set_ = MovingSet(from, apart), time_ = start.time;
   start_on_stop(start);
   if (scene_.is_rough()) begin_rough(start);
+  if (pressed_ && (resting_ || sticks_)) throw Undecided("a start at which both masses are held");
   if (scene_.loose && !pressed_) start_in_housing();
-  if (scene_.loose && (resting_ || sticks_)) throw Undecided("a main mass that rests beside a loose one");
 }
 
 /// The mode of a state at a stop's position or beyond it.
@@ -104,7 +106,9 @@ void Motion::start_on_stop(const Start& start) {
 
 std::vector<Margin> Motion::margins() const {
   std::vector<Margin> list;
-  if (scene_.is_rough()) {
+  if (resting_ || sticks_) {
+    // only a strike of the loose mass moves it
+  } else if (scene_.is_rough()) {
     list = rough_margins();
   } else if (mode_ == Mode::free) {
     for (const Side side : {Side::lower, Side::upper})

@@ -64,7 +64,10 @@ class Motion {
   [[nodiscard]] const std::vector<Ball>& other_places() const { return other_places_; }
 
   /// The oscillator of the present mode, and what its motion must stay clear of until the next event.
-  [[nodiscard]] const Flow& flow() const { return (pressed_ ? flows_->as_one : flows_->alone)[number_of_flow()]; }
+  [[nodiscard]] const Flow& flow() const {
+    if (resting_ || sticks_) return flows_->held;
+    return (pressed_ ? flows_->as_one : flows_->alone)[number_of_flow()];
+  }
   [[nodiscard]] std::vector<Margin> margins() const;
 
  private:
@@ -75,7 +78,10 @@ class Motion {
   };
   /// Free, in contact with the lower stop, with the upper one; with friction of slips down, then the same of slips up.
   struct Flows {
-    std::vector<Flow> alone, as_one;  ///< as one: both masses, while a wall presses the loose one (eq. 71)
+    explicit Flows(const Scene& scene);
+    std::optional<Scene> both{};  ///< of both masses as one, while a wall presses the loose one (eq. 71)
+    std::vector<Flow> alone, as_one;
+    Flow held;  ///< of a main mass that stays where it is
   };
   struct Spring {
     Ball k, load;
@@ -91,6 +97,7 @@ class Motion {
   [[nodiscard]] std::size_t number_of_flow() const {
     return (mode_ == Mode::contact ? 1 + index_of(side_) : 0) + (heading_ > 0 ? 3 : 0);
   }
+  [[nodiscard]] const Scene& acting() const { return pressed_ ? *flows_->both : scene_; }
   void begin_at(const Start& start, const Four& width);
   void start_on_stop(const Start& start);
   void start_in_housing();
@@ -116,8 +123,13 @@ class Motion {
 
   // Of the main mass: rest.cpp, friction.cpp.
   void rebound(Side side, const Ball& time);
-  void release(Side side, const Ball& after, bool nearest);
+  [[nodiscard]] Dual time_of_release(Side side, const Ball& after, bool nearest);
+  void let_main_go(Side side);
+  void collapse_on(Side side);
+  void start_with_release(const Start& start);
+  bool strikes_before(const Ball& time);
   [[nodiscard]] Rebounds rebounds(Side side, const Ball& time, const Ball& w) const;
+  void require_off_walls(const Rebounds& left) const;
   Event finish_chatter_on_stop(const ChatterAim& aim);
   Event finish_rest_on_stop(const Ball& end);
   void begin_rough(const Start& start);
@@ -125,8 +137,14 @@ class Motion {
   [[nodiscard]] Spring spring() const;
   [[nodiscard]] int way_of_push() const;
   [[nodiscard]] std::vector<Margin> rough_margins() const;
+  struct Release {
+    int way;
+    Ball time, slope;  ///< by the place
+  };
+  [[nodiscard]] std::optional<Release> release_to(int way, const Ball& time, const Ball& x) const;
   Event stop_moving(const Ball& end);
   Event stay(const Ball& end);
+  void move_to_release(const Release& all);
 
   // Of the loose one: press.cpp.
   Event strike(Side side);

@@ -206,7 +206,7 @@ std::optional<Response> steady_response(const Certificate& certificate, const Sc
 
 Orbit claimed_orbit(const Certificate& certificate, const Scene& scene) {
   if (certificate.released) return resting_orbit(certificate, scene);
-  const bool held = certificate.events.size() == 1 && certificate.events[0].kind == Kind::rest;
+  const bool held = !scene.loose && certificate.events.size() == 1 && certificate.events[0].kind == Kind::rest;
   if (!held) {
     const auto require_one = [&] {
       Motion motion(scene, certificate.start_in_balls(), claimed_errors(certificate));

@@ -226,7 +226,7 @@ void Motion::start_in_housing() {
     const Ball into = Ball(sign_of(side)) * hull[3];
     wall_ = side, loose_vanishing_ = 1;
     if (into.is_negative()) continue;
-    if (hits_at_start_) throw Undecided("whether both masses strike at the start");
+    if (hits_at_start_ || resting_ || sticks_) throw Undecided("a start on a wall beside an event of the main mass");
     if (into.is_zero()) {
       press_or_leave();
     } else if (into.is_positive() && set_.is_a_point()) {
@@ -245,6 +245,16 @@ Event Motion::strike(Side side) {
   event.of_wall = true;
   const Ball& R = scene_.loose->restitution(side);
   kick_ = (Ball(1) + R) * scene_.loose->share(), turn_ = -R;
+  const Ball v = state_of(set_.hull()).y[1];
+  if (resting_) {
+    if (!(Ball(sign_of(side_)) * v).is_negative()) throw Undecided("whether both masses strike at one instant");
+    begin(Mode::free, side_, 1);
+  }
+  resting_ = sticks_ = false;
+  if (scene_.is_rough()) {
+    if (!v.is_positive() && !v.is_negative()) throw Undecided("whether friction holds the mass after a strike");
+    heading_ = v.is_positive() ? 1 : -1;
+  }
   if (R.is_zero()) press_or_leave();
   return event;
 }

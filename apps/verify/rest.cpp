@@ -20,31 +20,41 @@ Number time_of_phase(const BasicScene<Number>& scene, const Number& theta, slong
 
 }  // namespace
 
-/// Puts the mass on a stop at the instant at which the force that presses it falls to 0: the first one after a time, or
-/// the nearest one.
-void Motion::release(Side side, const Ball& after, bool nearest) {
+/// The instant at which the force that presses the mass into a stop falls to 0: the first one after a time, or the
+/// nearest one.
+Dual Motion::time_of_release(Side side, const Ball& after, bool nearest) {
   const Ball theta = phase_of_release(scene_, side);
   const Ball turns = (scene_.nu * after + scene_.phase - theta) / (Ball(2) * Ball::pi());
   turns_ = nearest ? (turns + Ball(0.5)).floor() : turns.floor() + 1;
-  time_ = time_of_phase(scene_, theta, turns_);
-  Ball slope(0);
-  if (family_ != nullptr) {
-    const MovingScene& scene = family_->scene;
-    time_ = time_of_phase(scene, phase_of_release(scene, side), turns_), slope = scene.stop(side).position.slope;
-  }
-  set_.collapse({{scene_.stop(side).position, Ball(0), Ball(0), Ball(0)}}, {{slope, Ball(0), Ball(0), Ball(0)}});
-  surface_.reset(), resting_ = false;
+  if (family_ == nullptr) return time_of_phase(scene_, theta, turns_);
+  return time_of_phase(family_->scene, phase_of_release(family_->scene, side), turns_);
+}
+
+void Motion::let_main_go(Side side) {
+  resting_ = false;
   begin(Mode::free, side, 3);
   if (!scene_.is_rough()) return;
   heading_ = -sign_of(side);
   still_for_ = scene_.is_let_go_gently ? 2 : 1;
 }
 
+void Motion::start_with_release(const Start& start) {
+  time_ = time_of_release(start.side, start.time, true), start_time_ = time_.value;
+  collapse_on(start.side);
+  let_main_go(start.side);
+}
+
+/// Puts the main mass on a stop, whatever its state was.
+void Motion::collapse_on(Side side) {
+  Four there{{scene_.stop(side).position, Ball(0), Ball(0), Ball(0)}}, slope = Four::zero();
+  if (family_ != nullptr) slope[0] = family_->scene.stop(side).position.slope;
+  set_.collapse(there, slope), surface_.reset();
+}
+
 /// The mass after an impact: on its way back, or without speed, when the force holds it or pulls it away at once.
 void Motion::rebound(Side side, const Ball& time) {
   heading_ = scene_.is_rough() ? -sign_of(side) : 0, still_for_ = 0;
   if (!scene_.stop(side).R.is_zero()) return begin(Mode::free, side, 1);
-  if (scene_.loose) throw Undecided("an impact without a rebound beside a loose mass");
   const Ball press = scene_.pressing(side, sin_cos(scene_.nu * time + scene_.phase).first) + scene_.friction_static;
   if (press.is_negative()) {
     if (scene_.is_rough()) still_for_ = 1;
@@ -84,11 +94,22 @@ Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) co
   const auto flight_in = [&](const Ball& a) { return w / (a + mu) + w / sqrt((a + mu) * (a - mu)); };
   const Ball lasts = flight_in(least) / (Ball(1) - slowest);
   if (!(lasts <= longest)) throw Undecided("whether a chatter ends");
-  return {Ball::hull(flight_in(most) / (Ball(1) - quickest), lasts), height};
+  const Rebounds left{Ball::hull(flight_in(most) / (Ball(1) - quickest), lasts), height};
+  if (scene_.loose) require_off_walls(left);
+  return left;
+}
+
+/// A loose mass flies on as if the main one rested at once, but for the height of the rebounds.
+void Motion::require_off_walls(const Rebounds& left) const {
+  const auto [time, y] = state_of(set_.hull());
+  const Ball s = Ball::hull(Ball(0), left.time), off = Ball::around_zero(left.height);
+  const Ball z = y[2] + s * (y[1] + y[3] + scene_.loose->load * s / Ball(2)) + off;
+  for (const Side side : {Side::lower, Side::upper})
+    if (scene_.loose->walls[index_of(side)] && !(Ball(sign_of(side)) * (scene_.loose->wall(side) - z)).is_positive())
+      throw Undecided("whether a chatter is over before the loose mass strikes");
 }
 
 Event Motion::finish_chatter_on_stop(const ChatterAim& aim) {
-  if (scene_.loose) throw Undecided("a chatter of the main mass beside a loose one");
   const Side side = side_;
   const Ball begin_time = state_of(set_.hull()).time;
   if (mode_ != Mode::free || surface_ != std::size_t{0} || vanishing_ != 1)
@@ -108,18 +129,20 @@ Event Motion::finish_chatter_on_stop(const ChatterAim& aim) {
       if (until < aim.end && until.radius() <= aim.accuracy && left->height <= Ball(aim.height)) {
         const Ball place = scene_.stop(side).position;
         other_places_.push_back(Ball::hull(place, place - Ball(sign_of(side)) * left->height));
-        resting_ = true, rest_begin_ = until;
+        resting_ = true, factor_ = Dual(0), rest_begin_ = until;
         return {Kind::chatter, side, begin_time, Ball(0), until};
       }
     }
     const Event event = next(aim.end);
     rebounds_now = event.kind != Kind::reversal;
     if (!rebounds_now && event.time < aim.latest) continue;
-    if (event.kind != Kind::impact || event.side != side || resting_ || event.time > aim.latest) return event;
+    if (event.kind != Kind::impact || event.of_wall || event.side != side || resting_ || event.time > aim.latest)
+      return event;
   }
   throw Undecided("the end of a chatter");
 }
 
+/// Nothing of the motion of the main mass before a rest is left in its state; a loose one flies on.
 Event Motion::finish_rest_on_stop(const Ball& end) {
   if (!resting_) throw Undecided("whether the mass rests");
   Event event{Kind::rest, side_, rest_begin_, Ball(0), end};
@@ -128,18 +151,43 @@ Event Motion::finish_rest_on_stop(const Ball& end) {
   other_places_.push_back(stop.position);
   const Ball least =
       Ball(sign_of(side)) * (scene_.load - scene_.k * stop.position) + scene_.friction_static - abs(scene_.f);
-  if (least.is_positive()) {  // for ever
-    set_.collapse({{stop.position, Ball(0), Ball(0), Ball(0)}}, Four::zero());
-    time_ = end, surface_.reset(), at_end_ = true;
+  const bool for_ever = least.is_positive();
+  const Dual release = for_ever ? Dual(end) : time_of_release(side, rest_begin_, false);
+  const bool lets_go = !for_ever && (release.value <= end || release.value.overlaps(end));
+  if (strikes_before(lets_go ? release.value : end)) {
+    event.until = due_->time;
     return event;
   }
-  release(side, rest_begin_, false);
-  if (time_.value <= end || time_.value.overlaps(end)) {
-    event.until = time_.value;
-    return event;
-  }
-  resting_ = at_end_ = true, time_ = end;
+  if (scene_.loose)
+    move_to_end(flight_from(state_of(set_.hull())), lets_go ? release.value : end, Ball(0));
+  else
+    collapse_on(side);
+  time_ = lets_go ? release : Dual(end), event.until = time_.value;
+  if (lets_go)
+    let_main_go(side);
+  else
+    at_end_ = true;
   return event;
+}
+
+/// Whether a loose mass strikes a wall, and so moves the main one that something holds, before a time. Then that is
+/// due.
+bool Motion::strikes_before(const Ball& time) {
+  const std::vector<Margin> list = margins();
+  if (list.empty()) return false;
+  const State state = state_of(set_.hull());
+  const MachineFlight all = flight_from(state);
+  require_inside(all, list);
+  const Ball horizon = time - state.time;
+  const auto crossing = first_crossing(flows_->alone.front().rate(), all, list, horizon);
+  if (!crossing) return false;
+  const Margin& margin = list[crossing->margin];
+  const Ball instant = instant_of(all, margin, Ball::hull(crossing->from, crossing->to));
+  if (instant > horizon) return false;
+  if (!(instant < horizon)) throw Undecided("whether a strike comes before a release");
+  move_to_surface(all, margin, instant);
+  due_ = strike(margin.sign < 0 ? Side::upper : Side::lower);
+  return true;
 }
 
 }  // namespace verify

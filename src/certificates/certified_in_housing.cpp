@@ -15,18 +15,21 @@ using point::Problem;
 
 namespace {
 
-/// The verifier follows no main mass that a stop holds beside a loose one.
-Without kept_from_claim(const RecordedMotion<4>& motion) {
-  const bool rests =
-      std::ranges::any_of(motion.events, [](const RecordedEvent<4>& event) { return event.lasts() && !event.of_wall; });
-  return rests ? Without::resting_main : Without::none;
+/// Whether both masses are held at once, or a force within rounding of 0 is waited for, which no event tells apart.
+bool is_held_twice(const RecordedMotion<4>& motion) {
+  const auto overlap = [&](const RecordedEvent<4>& one, const RecordedEvent<4>& other) {
+    return one.lasts() && other.lasts() && other.time < one.end() - 1e-12 * motion.duration;
+  };
+  return std::ranges::adjacent_find(motion.events, overlap) != motion.events.end() ||
+         !std::ranges::all_of(motion.events, &RecordedEvent<4>::held);
 }
 
 /// The order of two events within rounding of each other isn't known.
 void drop_if_at_one_instant(CertifiedPoint& point) {
   if (!point.certificate) return;
   const auto is_instant = [](const ClaimedEvent& event) {
-    return event.kind != motion::Event::Kind::rest && event.kind != motion::Event::Kind::chatter;
+    using enum motion::Event::Kind;
+    return event.kind != rest && event.kind != chatter && event.kind != stick;
   };
   const auto meet = [&](const ClaimedEvent& one, const ClaimedEvent& other) {
     return !(one.of_wall && other.of_wall) && is_instant(one) && is_instant(other) &&
@@ -40,24 +43,26 @@ void drop_if_at_one_instant(CertifiedPoint& point) {
 
 void certify_transient_in_housing(const Problem& problem, const PointResult& result, CertifiedPoint& point) {
   auto motion = recorded_in_housing(problem, problem.time.duration / period_of(problem.oscillator));
-  point.without = motion ? kept_from_claim(*motion) : Without::rounding;
-  if (point.without != Without::none) return;
+  point.without = motion && is_held_twice(*motion) ? Without::both_held : Without::rounding;
+  if (!motion || point.without == Without::both_held) return;
   certify_run<HousingBounds>(problem, std::move(*motion), result, point);
   drop_if_at_one_instant(point);
 }
 
 namespace {
 
-/// With a loose mass the certificate of a period begins in the middle of the longest press, else of the longest flight.
+/// With a loose mass the certificate of a period begins in the middle of the longest press, else of the longest time
+/// between two events.
 double start_in_housing(const RecordedMotion<4>& motion) {
   double longest = 0.0, middle = 0.0;
   for (const RecordedEvent<4>& event : motion.events)
-    if (event.is_rest() && event.length > longest) longest = event.length, middle = event.time + event.length / 2;
+    if (event.is_rest() && event.of_wall && event.length > longest)
+      longest = event.length, middle = event.time + event.length / 2;
   if (longest > 0) return middle;
   const auto& events = motion.events;
   for (std::size_t i = 0; i < events.size(); ++i) {
     const double next = i + 1 < events.size() ? events[i + 1].time : events[0].time + motion.duration;
-    if (next - events[i].time > longest) longest = next - events[i].time, middle = (events[i].time + next) / 2;
+    if (next - events[i].end() > longest) longest = next - events[i].end(), middle = (events[i].end() + next) / 2;
   }
   return std::fmod(middle, motion.duration);
 }
@@ -90,8 +95,8 @@ void certify_periodic_in_housing(const Problem& problem, const PointResult& resu
   const Problem section = in_housing_from(problem, from, end.phase);
   const auto whole = recorded_in_housing(section, result.observed_turns);
   if (!whole) return;
-  if (const Without kept = kept_from_claim(*whole); kept != Without::none) {
-    point.without = kept;
+  if (is_held_twice(*whole)) {
+    point.without = Without::both_held;
     return;
   }
   if (whole->events.empty()) {  // wherever the loose mass stands, or drifts to and fro

@@ -24,10 +24,11 @@ constexpr double of_multiplier = 1e-9;
 template <std::size_t n>
 class Bounds {
  public:
-  /// Whether an event of the main mass ends a press.
-  [[nodiscard]] bool is_cut(const ClaimedEvent& press, const ClaimedEvent& event) const {
-    return press.of_wall && press.kind == motion::Event::Kind::rest && !event.of_wall &&
-           std::abs(event.time.value - press.then.value) <= time_error(event.time.value - begin_);
+  /// Whether an event of one mass ends the time for which something holds the other one.
+  [[nodiscard]] bool is_cut(const ClaimedEvent& held, const ClaimedEvent& event) const {
+    const bool lasts = held.kind == motion::Event::Kind::rest || held.kind == motion::Event::Kind::stick;
+    return lasts && held.of_wall != event.of_wall &&
+           std::abs(event.time.value - held.then.value) <= time_error(event.time.value - begin_);
   }
   /// Whether a periodic motion is alone, so that its start is known.
   [[nodiscard]] bool know_the_start() const { return of_start_ < 1e10; }
@@ -104,6 +105,53 @@ class Bounds {
     if (event.kind != Kind::separation && event.kind != Kind::renewal) return position;
     return position - motion::soft_stop_at<double>(stops_, event.side).relaxation() * event.velocity();
   }
+  /// Claims a stick or a reversal, the velocity of a slip being 0: it falls to 0 the later the slower it does. A mass
+  /// that turns back is pushed that way, one that sticks may be pushed on by less than the friction.
+  [[nodiscard]] ClaimedEvent claimed_turn(const RecordedEvent<n>& event, double x_error, double v_error) const {
+    const double push = std::abs(push_at(event.time, event.place)), mu = friction_.kinetic;
+    const bool turns = event.kind == motion::Event::Kind::reversal || push >= mu;
+    const double late = v_error / (turns ? push + mu : mu - push) + time_error(event.time);
+    ClaimedEvent claim{event.kind, Side::none, {begin_ + event.time, late}, {}, {event.place, x_error}};
+    if (event.kind == motion::Event::Kind::stick)
+      claim.then = {begin_ + event.end(), release_error(event, event.place, x_error)};
+    return claim;
+  }
+  /// The flights of a chatter under a force last S v together, 2 v/(a (1 - R)) without friction (eqs. 24 and 63): its
+  /// end is off by the error of its first impact and by that of its speed.
+  [[nodiscard]] double chatter_error(const RecordedEvent<n>& event, const ClaimedEvent* before, double R, double push,
+                                     double mu) const {
+    const double error = of_chatter * event.length + time_error(event.end());
+    if (before == nullptr) return error;
+    const double up = push + mu, down = push - mu;
+    const double flights = (1 / up + 1 / std::sqrt(up * down)) / (1 - R * std::sqrt(down / up));
+    return error + before->time.error + R * flights * before->then.error;
+  }
+  /// The force that holds the mass falls to 0 the later the slower it changes, and of a stick the further the spring
+  /// has to be overcome (eq. 65); where nothing releases the mass, the end is that of the motion.
+  [[nodiscard]] double release_error(const RecordedEvent<n>& event, double x, double x_error) const {
+    const double force = std::abs(push_at(event.end(), x)) - friction_.static_level;
+    const double largest = std::abs(oscillator_.forcing) + std::abs(oscillator_.load) +
+                           std::abs(oscillator_.stiffness * x) + friction_.static_level;
+    const double rate =
+        std::abs(oscillator_.forcing * oscillator_.frequency * std::cos(oscillator_.frequency * event.end() + phase_));
+    if (!(std::abs(force) <= of_chatter * largest)) return time_error(event.end());
+    return time_error(event.end()) + (of_state * largest + stiffness_at(x) * x_error) / rate;
+  }
+  /// The force on a mass at x' = 0, and the stiffness that acts on it, those of a soft stop included.
+  [[nodiscard]] double push_at(double time, double x) const {
+    double push =
+        oscillator_.forcing * std::sin(oscillator_.frequency * time + phase_) + constant_force(oscillator_, x);
+    if (const Side within = soft_stop_beyond(stops_, x); within != Side::none) {
+      const auto stop = motion::soft_stop_at<double>(stops_, within);
+      push -= stop.stiffness * (x - stop.position);
+    }
+    return push;
+  }
+  [[nodiscard]] double stiffness_at(double x) const {
+    const Side within = soft_stop_beyond(stops_, x);
+    const double k = std::abs(oscillator_.stiffness);
+    return within == Side::none ? k : k + motion::soft_stop_at<double>(stops_, within).stiffness;
+  }
   [[nodiscard]] static double largest(const Sizes& sizes) { return *std::ranges::max_element(sizes); }
 
   Oscillator oscillator_;
@@ -132,12 +180,6 @@ class ErrorBounds : public Bounds<2> {
   /// Of a state after a path since the event before, by the derivative of the motion and the rounding so far.
   [[nodiscard]] StateError error_after(const Map& derivative, const Sizes& rounding, double path) const;
   [[nodiscard]] ClaimedEvent claimed_stay(const RecordedEvent<2>& event, const ClaimedEvent* before) const;
-  /// Of a stick or a reversal, the velocity of a slip being 0.
-  [[nodiscard]] ClaimedEvent claimed_turn(const RecordedEvent<2>& event) const;
-  [[nodiscard]] double chatter_error(const RecordedEvent<2>& event, const ClaimedEvent* before) const;
-  [[nodiscard]] double release_error(const RecordedEvent<2>& event, double x, double x_error) const;
-  [[nodiscard]] double push_at(double time, double x) const;
-  [[nodiscard]] double stiffness_at(double x) const;
 };
 
 }  // namespace clatter::certificates

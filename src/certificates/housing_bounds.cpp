@@ -76,26 +76,30 @@ double HousingBounds::acceleration(const RecordedEvent<4>& event, bool pressed) 
 
 ClaimedEvent HousingBounds::claimed(const RecordedEvent<4>& event, const ClaimedEvent* before) const {
   const Sizes error = error_after(event.derivative, event.rounding);
-  if (!event.of_wall) {
-    ClaimedEvent claim = claimed_contact(event, error[0], error[1], acceleration(event));
-    if (before != nullptr && is_cut(*before, claim))
-      claim = claimed_contact(event, error[0], error[1], acceleration(event, true));
-    return claim;
-  }
-  const double force = std::abs(loose_.load - acceleration(event));
-  if (event.kind == Kind::impact)  // the instant at which z reaches a wall
+  if (event.side == Side::none) return claimed_turn(event, error[0], error[1]);
+  if (event.lasts()) return claimed_stay(event, before);
+  if (event.of_wall) {  // the instant at which z reaches a wall
+    const double force = std::abs(loose_.load - acceleration(event));
     return claimed_contact(event, error[2], event.velocity(), error[3], force);
+  }
+  const ClaimedEvent alone = claimed_contact(event, error[0], error[1], acceleration(event));
+  if (before == nullptr || !is_cut(*before, alone)) return alone;
+  return claimed_contact(event, error[0], error[1], acceleration(event, true));
+}
+
+ClaimedEvent HousingBounds::claimed_stay(const RecordedEvent<4>& event, const ClaimedEvent* before) const {
   ClaimedEvent claim{event.kind, event.side, {begin_ + event.time, time_error(event.time)}, {begin_ + event.end(), 0}};
-  claim.of_wall = true;
+  claim.of_wall = event.of_wall;
+  if (before != nullptr) claim.time.error = before->kind == Kind::chatter ? before->then.error : before->time.error;
   if (event.kind == Kind::rest) {
-    if (before != nullptr) claim.time.error = before->kind == Kind::chatter ? before->then.error : before->time.error;
-    claim.then.error = release_error(event);
+    claim.then.error = event.of_wall ? release_error(event) : Bounds::release_error(event, place_of(event), 0.0);
     return claim;
   }
-  const double R = motion::WallRule<double>(loose_).law(event.side).share_at_rest();
-  claim.time.error = before->time.error;
-  claim.then.error = of_chatter * event.length + time_error(event.end()) + before->time.error +
-                     2 * R / (force * (1 - R)) * before->then.error;
+  const auto law =
+      event.of_wall ? motion::WallRule<double>(loose_).law(event.side) : restitution_at<double>(stops_, event.side);
+  const double push =
+      event.of_wall ? std::abs(loose_.load - acceleration(event)) : std::abs(push_at(event.time, place_of(event)));
+  claim.then.error = chatter_error(event, before, law.share_at_rest(), push, event.of_wall ? 0.0 : friction_.kinetic);
   return claim;
 }
 

@@ -26,6 +26,9 @@ class HousingBounds : public Bounds<4> {
   /// The main mass at an event, and its acceleration before it; `pressed`: that of both masses as one.
   [[nodiscard]] static motion::Event::Main main_at(const RecordedEvent<4>& event);
   [[nodiscard]] double acceleration(const RecordedEvent<4>& event, bool pressed = false) const;
+  /// Claims a chatter, a press or a rest.
+  [[nodiscard]] ClaimedEvent claimed_stay(const RecordedEvent<4>& event, const ClaimedEvent* before) const;
+  /// Of the end of a press.
   [[nodiscard]] double release_error(const RecordedEvent<4>& event) const;
 
   LooseMass loose_;

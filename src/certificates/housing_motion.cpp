@@ -25,7 +25,11 @@ Growth<4>::Map in_housing(const motion::LooseJacobian& map) {
   return changed;
 }
 
-/// The events of a record with their derivatives; a press that sections cut is one.
+bool are_alike(const motion::Event& one, const motion::Event& other) {
+  return one.kind == other.kind && one.side == other.side && one.of_wall == other.of_wall;
+}
+
+/// The events of a record with their derivatives; a rest, a stick or a press that sections cut is one.
 std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, Growth<4>& growth) {
   constexpr double same_time = 1e-9;
   std::vector<RecordedEvent<4>> events;
@@ -34,9 +38,7 @@ std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, G
     const motion::Event& event = recorder.events[i];
     growth.pass(in_housing(recorder.loose_derivatives[i]), std::min(1.0, event.end() - since));
     since = event.end();
-    const bool goes_on = event.kind == Kind::rest && event.of_wall && !events.empty() &&
-                         events.back().kind == Kind::rest && events.back().of_wall &&
-                         events.back().side == event.side &&
+    const bool goes_on = event.lasts() && !events.empty() && are_alike(events.back(), event) &&
                          event.time - events.back().end() <= same_time * (1 + event.time);
     RecordedEvent<4> recorded{event, growth.derivative(), growth.rounding()};
     if (goes_on) {
@@ -61,8 +63,8 @@ std::vector<RecordedEvent<4>> with_chatters(std::vector<RecordedEvent<4>> events
   for (const RecordedEvent<4>& event : events) {
     std::size_t first = list.size();
     double fastest = 0.0;
-    while (event.kind == Kind::rest && event.of_wall && first > 0 && list[first - 1].kind == Kind::impact &&
-           list[first - 1].of_wall && list[first - 1].side == event.side)
+    while (event.kind == Kind::rest && first > 0 && list[first - 1].kind == Kind::impact &&
+           list[first - 1].of_wall == event.of_wall && list[first - 1].side == event.side)
       fastest = std::max(fastest, list[--first].speed());
     std::size_t last = first;
     while (last < list.size() && !(std::abs(list[last].after) < slow * fastest)) ++last;

@@ -19,8 +19,8 @@ std::string reason_of(const CertifiedPoint& point) {
       return "one of a family";
     case Without::cut_chatter:
       return "cut within a chatter";
-    case Without::resting_main:
-      return "beside a loose mass at rest or under friction";
+    case Without::both_held:
+      return "with both masses held at once";
     case Without::one_instant:
       return "with two events at one instant";
     case Without::no_such_claim:
