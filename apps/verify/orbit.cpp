@@ -9,10 +9,22 @@ namespace verify {
 
 Ball length_of(const Scene& scene, long periods) { return Ball(periods) * scene.period(); }
 
+/// The first two coefficients of the characteristic polynomial, as those of a matrix of two numbers.
+Matrix with_its_two_eigenvalues(const FourByFour& m) {
+  Ball trace(0), minors(0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    trace = trace + m[i][i];
+    for (std::size_t j = 0; j < i; ++j) minors = minors + m[i][i] * m[j][j] - m[i][j] * m[j][i];
+  }
+  return {trace, -minors, Ball(1), Ball(0)};
+}
+
+/// A rest forgets x and x', a press z and z', so that no more than two multipliers are left.
 std::optional<std::vector<Vector>> Orbit::multipliers() const {
   const FourByFour derivative = motion->derivative();
-  if (in_flight) return eigenvalues(derivative);
-  auto found = eigenvalues(of_main(derivative));
+  const bool forgets = std::ranges::any_of(events, [](const Event& event) { return verify::holds(event.kind); });
+  if (in_flight && !forgets) return eigenvalues(derivative);
+  auto found = eigenvalues(in_flight ? with_its_two_eigenvalues(derivative) : of_main(derivative));
   if (found && motion->has_loose_mass()) found->insert(found->end(), 2, Vector{Ball(0), Ball(0)});
   return found;
 }

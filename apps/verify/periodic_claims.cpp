@@ -35,7 +35,7 @@ void require_smallest_period_of_rests(long periods, const Cycle& cycle) {
 
 void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
                            Report& report) {
-  if (cycle.releases() > 0) return require_smallest_period_of_rests(certificate.periods, cycle);
+  if (cycle.releases() > 0 && !scene.loose) return require_smallest_period_of_rests(certificate.periods, cycle);
   const auto repeats = [&](long parts) { return repeats_after(certificate, scene, orbit, static_cast<int>(parts)); };
   check_smallest_period(certificate, cycle, repeats, report);
 }
@@ -60,8 +60,8 @@ bool same_word(const Word& claimed, const std::vector<std::string>& found) {
 /// the start may be on either side of a stop.
 std::optional<std::string> word_without_impacts(const std::vector<Event>& events, const Scene& scene, const Ball& x) {
   const auto stays = [](Side side) -> std::string { return side == Side::upper ? "(U)" : "(L)"; };
-  if (scene.tells_walls() && !events.empty() && events.front().of_wall)
-    return events.front().side == Side::upper ? "(u)" : "(l)";
+  const auto held = std::ranges::find_if(events, [](const Event& event) { return holds(event.kind); });
+  if (scene.tells_walls() && held != events.end() && held->of_wall) return held->side == Side::upper ? "(u)" : "(l)";
   if (events.size() == 1 && events.front().kind == Kind::stick) return "(S)";
   const auto on_stop = std::ranges::find_if(events, [](const Event& event) { return !is_of_friction(event.kind); });
   if (on_stop != events.end()) return stays(on_stop->side);
@@ -135,7 +135,8 @@ void check_symmetry(const Certificate& certificate, const Scene& scene, const Cy
 void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, const Cycle& cycle,
                     Report& report) {
   const auto is_mirrored = [&](const Ball& centre) {
-    return cycle.releases() > 0 ? cycle.releases_mirrored() : returns_mirrored(certificate, scene, orbit, centre);
+    return cycle.releases() > 0 && !scene.loose ? cycle.releases_mirrored()
+                                                : returns_mirrored(certificate, scene, orbit, centre);
   };
   check_symmetry(certificate, scene, cycle, is_mirrored, report);
 }

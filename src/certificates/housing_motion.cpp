@@ -29,7 +29,8 @@ bool are_alike(const motion::Event& one, const motion::Event& other) {
   return one.kind == other.kind && one.side == other.side && one.of_wall == other.of_wall;
 }
 
-/// The events of a record with their derivatives; a rest, a stick or a press that sections cut is one.
+/// The events of a record with their derivatives; a rest, a stick or a press that sections cut is one. The sum of a
+/// chatter of the main mass that rounding has ended lasts no time.
 std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, Growth<4>& growth) {
   constexpr double same_time = 1e-9;
   std::vector<RecordedEvent<4>> events;
@@ -38,6 +39,7 @@ std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, G
     const motion::Event& event = recorder.events[i];
     growth.pass(in_housing(recorder.loose_derivatives[i]), std::min(1.0, event.end() - since));
     since = event.end();
+    if (event.kind == Kind::chatter && event.length <= same_time * (1 + event.time)) continue;
     const bool goes_on = event.lasts() && !events.empty() && are_alike(events.back(), event) &&
                          event.time - events.back().end() <= same_time * (1 + event.time);
     RecordedEvent<4> recorded{event, growth.derivative(), growth.rounding()};

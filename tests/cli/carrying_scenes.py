@@ -63,7 +63,7 @@ def carrying_scenes(count, seed):
 
 
 def beside_stops(draw, keys):
-    """The same between stops of the main mass, rigid or soft, also without a spring or pushed away by it."""
+    """The same between stops of the main mass, rigid or soft, with friction, without a spring or pushed away by it."""
     keys = {name: value for name, value in keys.items() if name != "base_amplitude"}
     sides = draw.choice((("lower",), ("upper",), ("lower", "upper"), ("lower", "upper")))
     for side in sides:
@@ -72,11 +72,14 @@ def beside_stops(draw, keys):
             keys[f"stop_stiffness_{side}"] = logarithmic(draw, 2, 60)
             keys[f"stop_damping_{side}"] = draw.choice([0.0, draw.uniform(0, 1)])
         else:
-            keys[f"R_{side}"] = draw.choice([1.0, draw.uniform(0.2, 1), draw.uniform(0.5, 1)])
+            keys[f"R_{side}"] = draw.choice([0.0, 1.0, *(draw.uniform(0.1, 1) for _ in range(4))])
     low, high = keys.get("stop_lower", -math.inf), keys.get("stop_upper", math.inf)
     keys["x0"] = min(max(keys["x0"], low + 0.01), high - 0.01)
     if draw.random() < 0.3:
         keys["stiffness"] = draw.choice([0.0, -draw.uniform(0.05, 0.5)])
+    if draw.random() < 0.3:
+        keys["friction"] = logarithmic(draw, 0.01, 0.3)
+        keys["friction_static"] = keys["friction"] * draw.choice([1.0, draw.uniform(1, 1.5)])
     return keys
 
 

@@ -16,6 +16,7 @@ class HousedMotion(Motion):
         self.walls = {side: number(loose[side]["position"]) for side in SIGN if side in loose}
         self.restitution = {side: number(loose[side].get("R", loose.get("R"))) for side in self.walls}
         self.share, self.pressed, self.since = self.mass / (1 + self.mass), start.get("pressed"), number(start["time"])
+        self.was_pressed = self.struck_on = None
         self.name = "wall" if {"lower", "upper", "friction"} & scene.keys() else "stop"
         if self.pressed:
             self.z, self.w = self.walls[self.pressed], 0.0
@@ -44,11 +45,11 @@ class HousedMotion(Motion):
         return Flow(alone.h / whole, alone.k / whole, alone.f / whole, alone.nu, alone.phase, load / whole)
 
     def beside(self, flow):
-        """The states at some times of a flight from now on."""
+        """The states at some times of a flight from now on; None: something holds the main mass."""
         start, z0, w0, wall = (self.t, self.x, self.v), self.z, self.w, self.pressed
 
         def at(t):
-            x, v = flow.at(start, t)
+            x, v = flow.at(start, t) if flow else (start[1] + 0 * t, 0 * t)
             if wall:
                 return x, v, self.walls[wall] + 0 * t, 0 * t
             s = t - start[0]
@@ -58,10 +59,12 @@ class HousedMotion(Motion):
         return at
 
     def advance(self):
-        if self.mode in ("rest", "stick"):
-            raise Unreliable("a main mass at rest")
-        flow, at = self.flow(), self.beside(self.flow())
-        names, margins = self.margins(flow, (self.t, self.x, self.v))
+        held = self.mode in ("rest", "stick")
+        if held and self.pressed:
+            raise Unreliable("both masses are held")
+        flow = None if held else self.flow()
+        at = self.beside(flow)
+        names, margins = self.of_held() if held else self.margins(flow, (self.t, self.x, self.v))
         if self.pressed:
             names.append(("let go", self.pressed))
             margins.append(lambda t: SIGN[self.pressed] * (self.load - flow.push(t, *at(t)[:2])))
@@ -72,27 +75,58 @@ class HousedMotion(Motion):
                 rounding = (1e-15 if self.w else 1e-12) if abs(self.z - place) < 1e-15 else 0
                 margins.append(lambda t, s=side, place=place, off=rounding: SIGN[s] * (place - at(t)[2]) + off)
         begun = self.t
-        self.t, index = first_fall(margins, begun, self.end, flow.step)
+        self.t, index = first_fall(margins, begun, self.end, Motion.flow(self, heading=0).step)
         self.pieces.append((begun, self.t, at))
         self.x, self.v, self.z, self.w = (float(x[0]) for x in at(np.array([self.t])))
         name, side = names[index] if index is not None else ("end", None)
         if self.pressed and name != "leave":
             self.tell("press", **{self.name: self.pressed}, time=self.since, until=self.t)
+        if held:
+            self.let_main_go(begun, name, side)
         if name == "strike":
             self.strike(side)
         elif name == "let go":
             self.pressed = None
-        elif name != "end":
+        elif not held and name != "end":
             self.cross(name, side)
+
+    def of_held(self):
+        """What lets a main mass go that a stop or friction holds."""
+        if self.mode == "rest":
+            return [("release", -SIGN[self.side])], [lambda t: self.pressing(self.side, t)]
+        mode, self.mode = self.mode, self.held
+        flow, x = self.flow(heading=0), self.x
+        self.mode = mode
+        ways = (1, -1)
+        return [("release", way) for way in ways], [
+            lambda t, way=way: self.mu_static - way * flow.push(t, x) for way in ways
+        ]
+
+    def let_main_go(self, begun, name, way):
+        if self.mode == "rest":
+            self.tell("rest", stop=self.side, time=begun, until=self.t)
+        else:
+            self.tell("stick", time=begun, until=self.t, x=self.x)
+        if name == "end":
+            return
+        on_stop = self.side if self.mode == "rest" else None
+        self.mode = "free" if on_stop else self.held
+        if name == "release":
+            self.heading = way if self.mu_static else 0
+        self.struck_on = on_stop
+
+    def push_on_still_mass(self):
+        """Of both masses, if a wall has pressed the loose one up to now."""
+        return super().push_on_still_mass() + (self.mass * self.load if self.was_pressed else 0)
 
     def cross(self, name, side):
         before, pressed = self.v, self.pressed
-        self.pressed = None
+        self.pressed, self.was_pressed = None, pressed
         super().cross(name, side)
-        self.w += before - self.v
+        self.w += before - self.v if name != "still" else 0
         if name == "leave":
             self.pressed = pressed
-        elif pressed and SIGN[pressed] * self.w > 0:
+        elif pressed and (SIGN[pressed] * self.w > 0 or self.mode in ("rest", "stick")):
             raise Unreliable("two events at once")
         elif pressed and self.w == 0 and self.push_on(pressed) > 0:
             self.pressed, self.since = pressed, self.t
@@ -116,6 +150,9 @@ class HousedMotion(Motion):
         self.v = before + (1 + (0 if rests else R)) * self.share * self.w
         self.w = 0.0 if rests else -R * self.w
         self.pressed, self.since = (side, self.t) if rests else (None, self.t)
+        if self.struck_on and SIGN[self.struck_on] * self.v > 0:
+            raise Unreliable("two events at once")
+        self.struck_on = None
         self.heading = int(np.sign(self.v)) if self.mu_static else 0
         if self.mode in ("contact", "beyond"):
             stop, sign = self.stops[self.side], SIGN[self.side]

@@ -234,7 +234,7 @@ class Motion:
 
     def stop_moving(self, moved):
         self.v = 0.0
-        push = self.flow(heading=0).push(self.t, self.x)
+        push = self.push_on_still_mass()
         if abs(abs(push) - self.mu_static) < 1e-9:
             raise Unreliable("whether friction holds the mass")
         if abs(push) < self.mu_static:
@@ -244,6 +244,9 @@ class Motion:
         if moved:
             self.tell("reversal", time=self.t, x=self.x)
         self.heading = heading
+
+    def push_on_still_mass(self):
+        return self.flow(heading=0).push(self.t, self.x)
 
     def stick(self):
         self.mode, begun = self.held, self.t
