@@ -87,14 +87,14 @@ bool is_alone_with(const Certificate& certificate, const Scene& scene, const Orb
   if (orbit.holds(state)) return true;
   Orbit wider;
   const PeriodMap map(certificate, scene, wider);
-  const auto in_wider = [&](const auto& box, const auto& there, const Ball& times) {
-    auto width = box.width.each([&](const Ball& w) { return (times * w).upper(); });
+  const auto in_wider = [&](const auto& box, const auto& there, int times) {
+    const auto away = (there - box.start).each([](const Ball& x) { return Ball(4) * abs(x).upper(); });
+    auto width = (box.width + away).each([&](const Ball& w) { return (Ball(times) * w).upper(); });
     const auto found = krawczyk(box.start, width, map(box.start, width));
     return found && found->holds(there);
   };
-  for (const int times : {16, 256, 4096, 65536}) try {
-      if (orbit.in_flight ? in_wider(*orbit.in_flight, state, Ball(times))
-                          : in_wider(*orbit.of_two, of_main(state), Ball(times)))
+  for (const int times : {1, 16, 256, 4096}) try {
+      if (orbit.in_flight ? in_wider(*orbit.in_flight, state, times) : in_wider(*orbit.of_two, of_main(state), times))
         return true;
     } catch (const Undecided&) {
       return false;
