@@ -212,10 +212,11 @@ Event Motion::graze(Side side, const Ball& about, const Ball& end) {
 
 /// The impact or touch of a start that moves into a stop, or a wall.
 Event Motion::hit_at_start() {
+  Four before = state_of(set_.centre()).y;
   surface_ = *std::exchange(hits_at_start_, std::nullopt);
-  Four before = set_.centre();
   before[*surface_] = time_.value;
   set_ = MovingSet(before, Four::zero());  // as after any impact, from which a chatter may go on
+  still_for_ = 0;
   if (*surface_ == 2) return strike(wall_);
   const Stop& stop = scene_.stop(side_);
   heading_ = scene_.is_rough() ? sign_of(side_) : 0;

@@ -44,7 +44,10 @@ std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, G
                          event.time - events.back().end() <= same_time * (1 + event.time);
     RecordedEvent<4> recorded{event, growth.derivative(), growth.rounding()};
     if (goes_on) {
-      recorded.time = events.back().time, recorded.length = event.end() - recorded.time;
+      const RecordedEvent<4>& before = events.back();
+      recorded.time = before.time, recorded.length = event.end() - recorded.time;
+      // a stick begins the later, the more the velocity before it is off, of which it leaves nothing
+      if (event.is_stick()) recorded.derivative = before.derivative, recorded.rounding = before.rounding;
       events.pop_back();
     }
     events.push_back(recorded);
