@@ -37,6 +37,14 @@ HOUSED = {
     "start": {"time": 0, "x": 0, "v": 0, "z": 0, "w": 0},
     "end": {**RIGHT["end"], "z": [0, 1], "w": [0, 1]},
 }
+IMPACT = {"event": "impact", "wall": "upper", "time": [0, 1]}
+
+
+def beside_stops(event):
+    """The right one with a loose mass beside its stop."""
+    return {**RIGHT, "scene": {**RIGHT["scene"], "loose": LOOSE}, **HOUSED, "events": [event]}
+
+
 PERIOD = {"claim": "periodic", "periods": 1}
 PRESS = {"event": "press", "stop": "lower", "time": [0, 1], "until": [1, 1]}
 
@@ -102,7 +110,22 @@ MALFORMED = [  # a line, and the place and how to fix it that are told
     ({**RIGHT, "end": {"time": 0, "x": [0, 1], "v": [0, 1]}}, "end: is not after the start; give a later time"),
     ({**RIGHT, "x_max": [0, -1]}, r"x_max\[1\]: is -1; it must be at least 0"),
     ({**RIGHT, "x_max": 0}, r"x_max: is no array; write"),
-    (in_scene(loose=LOOSE), "scene.lower: is given beside a loose mass; leave it out"),
+    (beside_stops(IMPACT), r"events\[0\].w: is missing; add it"),
+    (beside_stops({**IMPACT, "wall": "middle"}), r"events\[0\].wall: is .*; write"),
+    (beside_stops(PRESS), r"events\[0\]: is a press; give its wall"),
+    (
+        beside_stops({**IMPACT, "event": "touch", "w": [0, 1]}),
+        r"events\[0\]: is a touch beside a loose mass; write impact, chatter or press of a wall",
+    ),
+    (
+        beside_stops({"event": "impact", "stop": "upper", "time": [0, 1], "v": [1, 1]}),
+        r"events\[0\]: is an event of a rigid stop; the scene has none there",
+    ),
+    (
+        beside_stops({**IMPACT, "stop": "lower", "w": [1, 1]}),
+        r"events\[0\]: the member 'stop' has no meaning here; leave it out",
+    ),
+    (with_loose_mass(LOOSE, **HOUSED, events=[IMPACT]), r"events\[0\].stop: is missing; add it"),
     (with_loose_mass({**LOOSE, "mass": 0}), "scene.loose.mass: is 0; it must be above 0"),
     (with_loose_mass({**LOOSE, "R": -1}), "scene.loose.R: is -1; it must be at least 0 and at most 1"),
     (

@@ -10,7 +10,7 @@ import os
 import shutil
 import unittest
 
-from carrying_scenes import carrying_scenes
+from carrying_scenes import carrying_scenes, carrying_scenes_beside_stops
 from certified_runs import certificates_in, certified, random_certificates, verified
 from command_line import SOURCE
 from forgeries import FORGERIES, forged
@@ -104,6 +104,66 @@ mode = "transient"
 duration = 20
 """
 
+BESIDE_STOPS = """[scene]
+h = 0.05
+f = 1.0
+loose_mass = 0.3
+loose_gap = 0.6
+loose_R = 0.6
+stop_lower = -0.9
+stop_upper = 0.8
+{keys}
+[sweep]
+nu = "linspace({nu}, 11)"
+{axis}
+[observe]
+word = true
+extrema = true
+stability = true
+"""
+
+BESIDE_FRICTION = """[scene]
+h = 0.05
+f = 1.0
+loose_mass = 0.3
+loose_gap = 0.6
+loose_R = 0.6
+stop_lower = -0.9
+stop_upper = 0.9
+stop_stiffness = 20
+stop_damping = 0.1
+[sweep]
+nu = [0.7, 1.35]
+friction = [0.05, 0.3]
+"""
+
+BESIDE_STOPS_TRANSIENT = """[scene]
+h = 0.05
+f = 1.0
+nu = 0.8
+loose_mass = 0.3
+loose_lower = -0.5
+loose_load = -0.6
+stop_upper = 0.4
+R = 0.5
+[sweep]
+loose_R = [0, 0.4, 0.8]
+stiffness = [1, 0, -0.2]
+[time]
+mode = "transient"
+duration = 20
+"""
+
+BOTH = {  # walls of a loose mass beside stops of the main mass
+    "beside": BESIDE_STOPS.format(keys="R = 0.7", nu="0.4, 1.4", axis="stiffness = [1, 0.5, 0]"),
+    "beside_resting": BESIDE_STOPS.format(keys="R = 0.2", nu="0.4, 1.4", axis="loose_load = [0, 0.1]"),
+    "beside_soft": BESIDE_STOPS.format(
+        keys="R_upper = 0.8\nstop_stiffness_lower = 30\nstop_damping_lower = 0.1", nu="0.6, 1.4", axis=""
+    ),
+    "beside_friction": BESIDE_FRICTION,
+    "beside_transient": BESIDE_STOPS_TRANSIENT,
+}
+
 
 class Verify(Verifying):
     def test_every_periodic_point_of_the_figures_is_proved(self):
@@ -147,6 +207,7 @@ class Verify(Verifying):
             ("pressing", pressing_scenes(few, seed=46)),
             ("rough", rubbed_scenes(2 * few, seed=47)),
             ("carrying", carrying_scenes(few if IS_LONG else 20, seed=48)),
+            ("beside_stops", carrying_scenes_beside_stops(few if IS_LONG else 30, seed=49)),
         ):
             for first in range(0, len(scenes), AT_ONCE):
                 self.prove_scenes(f"{name}_{first}", scenes[first : first + AT_ONCE])
@@ -169,6 +230,7 @@ class Verify(Verifying):
             ("inelastic", INELASTIC),
             ("housed", HOUSED),
             ("housed_transient", HOUSED_TRANSIENT),
+            *BOTH.items(),
         ):
             file = self.certificates(name, config)
             self.assert_proved(verified(file), 1)
