@@ -39,6 +39,21 @@ nu = [0.6, 1.1]
 extrema = true
 """
 
+HOUSED = """[scene]
+f = 1.0
+h = 0.05
+nu = 0.9
+loose_mass = 0.3
+loose_gap = 0.6
+loose_R = 0.6
+{}
+[observe]
+extrema = true
+word = true
+stability = true
+impact_log = true
+"""
+
 MACHINE = """[machine]
 mass = "2 kg"
 stiffness = "8 N/m"
@@ -122,6 +137,31 @@ class Certify(CommandLine):
             kinds = [event["event"] for event in certificate["events"]]
             self.assertEqual(kinds, ["touch", "separation"] * (len(kinds) // 2))
             self.assertGreater(len(kinds), 0)
+
+    def test_walls_of_a_loose_mass_are_told_from_stops_beside_these(self):
+        for keys, names in (("", {("stop", "w")}), ("xs = 0.8\nR = 0.7", {("stop", "v"), ("wall", "w")})):
+            path = self.run_text("housed", HOUSED.format(keys), "-o", "housed.h5", "--force")
+            (certificate,), _ = self.certify(path)
+            impacts = [event for event in certificate["events"] if event["event"] == "impact"]
+            found = {tuple(name for name in ("stop", "wall", "v", "w") if name in event) for event in impacts}
+            self.assertEqual(found, names)
+            self.assertEqual(len(certificate["multipliers"]), 4)
+            with h5py.File(self.directory / path) as file:
+                self.assertEqual(certificate["word"], file["impact_word"][()].decode())
+                if keys:
+                    log = file["impact_v_before"][()]
+                    claimed = [event["w" if "wall" in event else "v"][0] for event in impacts]
+                    np.testing.assert_allclose(sorted(claimed), sorted(log), rtol=1e-8)
+
+    def test_what_both_masses_do_at_once_has_no_claim(self):
+        transient = '{}\n[time]\nmode = "transient"\nduration = 3\n'
+        held = transient.format("load = -2.0\nloose_load = -1.0\nstop_lower = 0\nR = 0.2\nloose_x0 = -0.55")
+        at_once = transient.format("f = 0.1\nload = 2.0\nstop_upper = 0.5\nR = 0.5\nx0 = 0.5\nloose_v0 = 0.5")
+        for keys, reason in ((held, "with both masses held at once"), (at_once, "with two events at one instant")):
+            text = HOUSED.format(keys).replace("f = 1.0\n", "" if "f = 0.1" in keys else "f = 1.0\n")
+            path = self.run_text("none", text.replace("stability = true\n", ""), "-o", "none.h5", "--force")
+            certificates, said = self.certify(path)
+            self.assertEqual((certificates, said), ([], f"1 point: 0 certificates, 1 without a claim (1 {reason})"))
 
     def test_a_mass_that_rests_begins_with_its_release(self):
         path = self.run_text("rest", "[scene]\nf=-1.0\nh=0.1\nR=0.7\nnu=0.3\nxs=0.05\n[observe]\nword=true\n")

@@ -6,8 +6,8 @@ An edit may leave a certificate true; a judge tells which are surely false.
 import copy
 import math
 
+from claimed_events import holder_of_R, place_name
 from forger_judge import LAST, OTHER, Unreliable, number, period_of
-from forgeries import holder_of_R, place_name
 
 
 def widened(certificate, error):

@@ -9,7 +9,6 @@ import math
 
 from forger_housing import HousedMotion
 from forger_motion import OTHER, Motion, Unreliable, number
-from forgeries import place_name
 
 LAST = ("rest", "press", "stick", "chatter")  # events with an end of their own
 

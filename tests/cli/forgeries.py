@@ -2,6 +2,8 @@
 
 import copy
 
+from claimed_events import contacts, holder_of_R, is_of_wall, place_name, rest_name, restitution, rests, speed_in
+
 BEYOND = 2  # a wrong number is off by so many times its error
 
 
@@ -14,45 +16,6 @@ def number(certificate, index, name):
     """Another value of a claimed number of an event."""
     certificate["events"][index][name] = off(certificate["events"][index][name])
     return certificate
-
-
-def speed_in(event):
-    """The name of the velocity that an event claims, if it does: of a loose mass that in its housing."""
-    return next((name for name in ("v", "w") if name in event), None)
-
-
-def contacts(certificate):
-    return [i for i, event in enumerate(certificate["events"]) if speed_in(event)]
-
-
-def rests(certificate):
-    return [i for i, event in enumerate(certificate["events"]) if event["event"] in ("rest", "press")]
-
-
-def place_name(event):
-    """Of a wall beside stops that is "wall"."""
-    return "wall" if "wall" in event else "stop"
-
-
-def is_of_wall(certificate, event):
-    return "wall" in event or ("loose" in certificate["scene"] and event.get("stop") not in certificate["scene"])
-
-
-def holder_of_R(scene, event):
-    """The object that has the restitution of a rigid stop, of a wall of a loose mass, or of both walls."""
-    side, housing = event.get(place_name(event)), scene.get("loose", {})
-    if "wall" not in event and side in scene:
-        return scene[side]
-    return housing if "R" in housing else housing.get(side, {})
-
-
-def restitution(certificate, event):
-    """That of a rigid stop, or of a wall of a loose mass."""
-    return holder_of_R(certificate["scene"], event)["R"]
-
-
-def rest_name(certificate, event):
-    return "press" if is_of_wall(certificate, event) else "rest"
 
 
 def wrong_speed(certificate):
@@ -148,8 +111,6 @@ def rest_that_is_none(certificate):
             if restitution(certificate, event) == 0:  # it would rest at once
                 continue
             name = place_name(event)
-            if rest_name(certificate, event) == "rest" and "loose" in certificate["scene"]:
-                continue  # of which there is no claim
             chatter = {"event": "chatter", name: event[name], "time": event["time"], "until": until}
             rest = {**chatter, "event": rest_name(certificate, event), "time": until, "until": [until[0] + 0.5, 1e-9]}
             certificate["events"][index + 1 :] = [chatter, rest]
