@@ -139,7 +139,10 @@ class Certify(CommandLine):
             self.assertGreater(len(kinds), 0)
 
     def test_walls_of_a_loose_mass_are_told_from_stops_beside_these(self):
-        for keys, names in (("", {("stop", "w")}), ("xs = 0.8\nR = 0.7", {("stop", "v"), ("wall", "w")})):
+        for keys, names in (
+            ("", {("stop", "w")}),
+            ("stop_lower = -0.9\nstop_upper = 0.8\nR = 0.7", {("stop", "v"), ("wall", "w")}),
+        ):
             path = self.run_text("housed", HOUSED.format(keys), "-o", "housed.h5", "--force")
             (certificate,), _ = self.certify(path)
             impacts = [event for event in certificate["events"] if event["event"] == "impact"]
