@@ -226,11 +226,11 @@ void Motion::start_in_housing() {
     const Ball into = Ball(sign_of(side)) * hull[3];
     wall_ = side, loose_vanishing_ = 1;
     if (into.is_negative()) continue;
-    if (hits_at_start_ || resting_ || sticks_) throw Undecided("a start on a wall beside an event of the main mass");
-    if (into.is_zero()) {
+    if (hits_at_start_ || resting_) throw Undecided("a start on a wall beside an event of the main mass");
+    if (into.is_zero() && !sticks_) {
       press_or_leave();
     } else if (into.is_positive() && set_.is_a_point()) {
-      hits_at_start_ = 2;
+      hits_at_start_ = 2, sticks_ = false;  // it moves before friction has held it for any time
     } else {
       throw Undecided("a start at a wall");
     }

@@ -40,6 +40,7 @@ std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, G
     growth.pass(in_housing(recorder.loose_derivatives[i]), std::min(1.0, event.end() - since));
     since = event.end();
     if (event.kind == Kind::chatter && event.length <= same_time * (1 + event.time)) continue;
+    if (event.is_stick() && event.length == 0) continue;  // a strike at the start
     const bool goes_on = event.lasts() && !events.empty() && are_alike(events.back(), event) &&
                          event.time - events.back().end() <= same_time * (1 + event.time);
     RecordedEvent<4> recorded{event, growth.derivative(), growth.rounding()};

@@ -156,6 +156,8 @@ class Judge:
             if kind != fact["event"] or not self.are_alike(claim, fact):
                 return f"event {index + 1}: {fact['event']}"
             for name in {"time", "until", "v", "w", "x"} & claim.keys():
+                if name not in fact:
+                    return f"event {index + 1}: no {name}"
                 value = min(fact[name], end) if name == "until" else fact[name]
                 if beyond(claim[name], value, tolerance * (10 if name == "until" else 1)):
                     return f"event {index + 1}: another {name}"
