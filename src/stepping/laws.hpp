@@ -30,13 +30,13 @@ void complete_chatter(const Loop& loop, motion::State<Number>& state, const Numb
   state.v = 0, state.chatters = false;
 }
 /// Whether nothing can tell the rest of a chatter on a stop from a rest. With a loose mass, which may strike while it
-/// lasts, chatter isn't summed.
+/// lasts, or draw by its friction to either side in turn, chatter isn't summed.
 template <class Loop, class Number>
 [[nodiscard]] bool fades(const Loop& loop, const motion::State<Number>& state, const motion::Stop<Number>& stop) {
   using std::abs;
   const Number force = contact_force(loop.constants(), stop, loop.phase(state)).force, rebound = abs(state.v);
   const bool is_struck = state.loose.wall != Side::none && state.loose.place == 0;
-  if (!(force > 0) && !is_struck) return false;
+  if (!(force > 0) && !is_struck && !loop.walls().is_rough()) return false;
   if (2 * rebound <= force * epsilon<Number>() * loop.period()) return true;
   return loop.loses() && rebound <= modes::faded_speed(loop, stop.position);
 }

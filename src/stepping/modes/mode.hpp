@@ -34,7 +34,7 @@ template <class Mode, class Loop, class Constants, class State>
     }
   }
   auto start = loop.motion(constants, state, released);
-  if constexpr (Loop::effects.loose)
+  if constexpr (Loop::effects.loose && !Loop::carries)
     if (state.loose.released) start.a = loop.walls().load + loop.walls().jump;  // without friction z'' = 0 there
   return start;
 }
