@@ -173,6 +173,17 @@ template <class Number>
   return state;
 }
 
+/// The wall from which the place of a loose mass that rubs counts at its start: the nearer one, else that to which the
+/// scene leans, so that the mirror image of a motion is one to the last bit.
+[[nodiscard]] inline Side nearer_wall(const Scene& scene) {
+  const LooseMass& loose = scene.loose;
+  const Oscillator& o = scene.oscillator;
+  const double nearer = (loose.place - loose.lower) - (loose.upper - loose.place);  // infinite with one wall
+  for (const double sign :
+       {nearer, loose.velocity, scene.start.velocity, scene.start.displacement, loose.load, o.load, o.forcing})
+    if (sign != 0) return sign > 0 ? Side::upper : Side::lower;
+  return Side::lower;
+}
 /// The start of a loose mass, from that of the main mass. Where friction may hold it, it counts from a wall at once, so
 /// that its place in the housing stays exactly the same.
 template <class Number>
@@ -182,9 +193,9 @@ template <class Number>
     if (loose.place == (side == Side::upper ? loose.upper : loose.lower))
       return {side, Number(0), Number(loose.velocity)};
   if (has_loose_friction(loose)) {
-    const bool is_nearer_above = !(loose.place - loose.lower <= loose.upper - loose.place);
-    const Side wall = is_nearer_above ? Side::upper : Side::lower;
-    return {wall, Number(loose.place) - Number(is_nearer_above ? loose.upper : loose.lower), Number(loose.velocity)};
+    const Side wall = nearer_wall(scene);
+    const double from = wall == Side::upper ? loose.upper : loose.lower;
+    return {wall, Number(loose.place) - Number(from), Number(loose.velocity)};
   }
   return {Side::none, Number(scene.start.displacement) + Number(loose.place),
           Number(scene.start.velocity) + Number(loose.velocity)};

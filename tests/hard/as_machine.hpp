@@ -33,6 +33,8 @@ namespace clatter::hard {
           .wall_R_lower = loose.restitution_lower,
           .wall_R_upper = loose.restitution_upper,
           .loose_load = loose.load,
+          .loose_friction = loose.friction,
+          .loose_static = loose.friction_static,
           .x = start.displacement,
           .v = start.velocity,
           .z = loose.place,
@@ -57,6 +59,7 @@ namespace clatter::hard {
   const double rise = (way % 2 == 0 ? 1 : -1) * roundings * epsilon<double>();
   if (given.static_friction > 0) s.forcing = given.forcing * (1 - rise);
   s.friction *= 1 + rise, s.static_friction *= 1 + rise;
+  s.loose_friction *= 1 + rise, s.loose_static *= 1 + rise;
   s.z = std::clamp(s.z + random.sign() * roundings / 2 * epsilon<double>() * given.x, s.wall_lower, s.wall_upper);
   if (given.z == given.wall_lower) s.z = s.wall_lower;
   if (given.z == given.wall_upper) s.z = s.wall_upper;

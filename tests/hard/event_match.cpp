@@ -179,6 +179,8 @@ Events told_events(const MachineRun& run) {
       case Simulated::rest_end:
       case Simulated::stick_end:
       case Simulated::release:
+      case Simulated::hold:
+      case Simulated::hold_end:
       case Simulated::leave:
         break;
     }

@@ -62,6 +62,7 @@ class Machine {
   // The mode at an instant.
 
   [[nodiscard]] Mode chosen_mode() {
+    if (m_.rubs()) return rubbing_mode();
     const int on = m_.w != 0 ? 0 : m_.is_on_wall(1) ? 1 : m_.is_on_wall(-1) ? -1 : 0;
     Mode mode{false, m_.v > 0 ? 1 : m_.v < 0 ? -1 : 0, 0};
     if (m_.v == 0 && (m_.mus > 0 || m_.is_on_rigid(1) || m_.is_on_rigid(-1))) {
@@ -81,18 +82,60 @@ class Machine {
     if (sign_after_start(room) <= 0) mode.pressed = on;
     return mode;
   }
+  /// The main mass is held, or slips, by the forces that it has in a mode of the loose one.
+  [[nodiscard]] Mode with_main(Mode mode) {
+    mode.held = false, mode.slip = m_.v > 0 ? 1 : m_.v < 0 ? -1 : 0;
+    if (m_.v != 0 || (m_.mus == 0 && !m_.is_on_rigid(1) && !m_.is_on_rigid(-1))) return mode;
+    Mode held = mode;
+    held.held = true;
+    for (const int side : {-1, 1}) {
+      if (m_.is_on_rigid(side)) continue;
+      const Guard level = m_.hold(side, held, m_.step_of(held));
+      if (is_fresh_) note(level.p[0], level.size);
+      if (sign_after_start(level) < 0) mode.slip = side;
+    }
+    return mode.slip == 0 ? held : mode;
+  }
+  /// Of a loose mass that rubs: at z' = 0 it is taken along if friction, or a wall with it, is strong enough; else it
+  /// slides to the side to which z' grows. A main mass that has just been let go with it moves on.
+  [[nodiscard]] Mode rubbing_mode() {
+    if (m_.w != 0) return with_main({.slide = m_.w > 0 ? 1 : -1});
+    const int on = m_.is_on_wall(1) ? 1 : m_.is_on_wall(-1) ? -1 : 0;
+    const Mode together = with_main({.pressed = on, .stuck = true});
+    const Quad step = m_.step_of(together);
+    const Series x = m_.main_series(together, step);
+    bool is_kept = true;
+    for (const int side : {-1, 1}) {
+      if (!m_.is_taken_along(together, side)) continue;
+      const Guard level = m_.press(side, x, step);
+      if (is_fresh_) note(level.p[0], level.size);
+      is_kept = is_kept && sign_after_start(level) >= 0;
+    }
+    if (is_kept) return together;
+    const bool is_let_go = mode_.held && mode_.takes_along() && !together.held;
+    for (const int side : {-1, 1}) {
+      if (side == on) continue;
+      const Mode slides = is_let_go ? Mode{.slip = together.slip, .slide = side} : with_main({.slide = side});
+      const Quad own = m_.step_of(slides);
+      const Series way = m_.loose_series(slides, m_.main_series(slides, own), own);
+      if (sign_after_start(m_.still(side, way, own, Guard::Of::loose_still)) > 0) return slides;
+    }
+    return together;
+  }
   /// Tells the events that a change of the mode is.
   void change_to(const Mode& mode) {
     const int on = m_.is_on_rigid(1) ? 1 : m_.is_on_rigid(-1) ? -1 : 0;
     if (mode_.held && !mode.held) tell(held_on_ != 0 ? Kind::rest_end : Kind::stick_end, held_on_);
-    const Quad braked = is_turning_ ? m_.acceleration(mode_.slip) : 0;
+    const Quad braked = is_turning_ ? m_.acceleration(mode_.slip, mode_.slide) : 0;
     if (!mode_.held && mode.held) tell(on != 0 ? Kind::rest : Kind::stick, on, braked), held_on_ = on;
     if (is_turning_ && !mode.held) tell(Kind::reversal, 0, braked);
     if (mode_.pressed != 0 && mode.pressed != mode_.pressed) tell(Kind::release, mode_.pressed);
     if (mode.pressed != 0 && mode.pressed != mode_.pressed) {
-      const Quad away = m_.scene.loose_load - (mode.held ? 0 : m_.acceleration(mode.slip));
+      const Quad away = m_.scene.loose_load - (mode.held ? 0 : m_.acceleration(mode.slip, mode.slide));
       tell(Kind::press, mode.pressed, mode.pressed * away);
     }
+    const bool was_stuck = mode_.stuck && mode_.pressed == 0, is_stuck = mode.stuck && mode.pressed == 0;
+    if (was_stuck != is_stuck) tell(is_stuck ? Kind::hold : Kind::hold_end, 0);
     mode_ = mode;
     is_fresh_ = is_turning_ = false;
   }
@@ -134,10 +177,12 @@ class Machine {
   [[nodiscard]] bool is_slow(Quad speed, Quad back) const {
     return speed <= Quad(m_.scene.still) * fastest_ || 2 * speed < Quad(1e-27) * back;
   }
+  /// The side to which the loose mass moves in its housing, if it rubs.
+  [[nodiscard]] int slide() const { return !m_.rubs() || m_.w == 0 ? 0 : m_.w > 0 ? 1 : -1; }
   void strike_stop(int side) {
     const Quad before = m_.v;
     m_.v *= -m_.stop(side).restitution;
-    if (is_slow(size_of(m_.v), side * m_.acceleration(-side))) m_.v = 0;
+    if (is_slow(size_of(m_.v), side * m_.acceleration(-side, slide()))) m_.v = 0;
     if (m_.has_loose) m_.w += before - m_.v;
     run_.struck += to_long((before * before - m_.v * m_.v) / 2);
     tell(Kind::stop_impact, side, before, m_.v, before);
@@ -146,7 +191,8 @@ class Machine {
     const Quad before = m_.w, share = Quad(m_.scene.loose_mass) / (1 + Quad(m_.scene.loose_mass)), v = m_.v;
     for (const Quad R : {m_.wall(side).restitution, Quad(0)}) {
       m_.w = -R * before, m_.v = v + share * (1 + R) * before;
-      const Quad back = side * (m_.scene.loose_load - m_.acceleration(m_.v > 0 ? 1 : m_.v < 0 ? -1 : 0));
+      const int away = m_.rubs() ? -side : 0;
+      const Quad back = side * (m_.loose_push(away) - m_.acceleration(m_.v > 0 ? 1 : m_.v < 0 ? -1 : 0, away));
       if (!is_slow(size_of(m_.w), back)) break;
     }
     run_.struck += to_long(share * (before * before - m_.w * m_.w) / 2);
@@ -177,7 +223,7 @@ class Machine {
   }
   /// The part of a step by which rounding delays what a guard tells.
   [[nodiscard]] Quad late(const Guard& guard, Quad u) const {
-    if (m_.scene.rounding == 0 || guard.of == Guard::Of::still) return 0;
+    if (m_.scene.rounding == 0 || guard.of == Guard::Of::still || guard.of == Guard::Of::loose_still) return 0;
     const Quad own = m_.scene.rounding * (guard.level == 2 ? size_of(m_.x()) : guard.size);
     const Quad off = std::min(own, Quad(1e-6) * watches_[place_of(guard)].high);
     return off == 0 ? 0 : std::min({off / size_of(jet(guard.p, u).second), Quad(1e-6) * u, 1 - u});
@@ -189,8 +235,9 @@ class Machine {
     if (h != 0) run_.damped += 2 * h * integral_of_square(slope_of(x), u) / to_long(step);
     const auto [q, slope] = jet(x, u);
     m_.q = q, m_.v = mode_.held ? 0 : slope / step;
-    if (mode_.pressed == 0 && m_.has_loose) {
+    if (!mode_.takes_along() && m_.has_loose) {
       const auto [place, speed] = jet(r, u);
+      run_.rubbed_in_housing += m_.scene.loose_friction * to_long(size_of(place - m_.r));
       m_.r = place, m_.w = speed / step;
     }
     take_turns(run_.of_x, x_anchor, x, u), take_turns(run_.of_z, m_.wall_anchor, r, u);
@@ -238,6 +285,9 @@ class Machine {
         m_.v = 0, is_fresh_ = is_turning_ = true;
         m_.q += std::min(m_.scene.rounding * size_of(m_.x()), Quad(1e-6) * size_of(m_.q));
         return;
+      case Guard::Of::loose_still:
+        m_.w = 0, is_fresh_ = true;
+        return;
       case Guard::Of::force_gone:
         return separate();
       case Guard::Of::force_back:
@@ -273,7 +323,7 @@ class Machine {
   int held_on_ = 0;
   bool is_fresh_ = false;    ///< something has just come to rest
   bool is_turning_ = false;  ///< the velocity of the main mass has just fallen to 0
-  std::array<Watch, 16> watches_{};
+  std::array<Watch, 18> watches_{};
   MachineRun run_{};
 };
 

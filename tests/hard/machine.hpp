@@ -10,7 +10,9 @@ namespace clatter::hard {
 inline constexpr double no_stop = std::numeric_limits<double>::infinity();
 
 /// A main mass, 1, with friction, between stops, that may carry a loose mass eps between two walls:
-///   x'' + 2h x' + k x + mu sgn x' = f sin(nu tau + phase) + load + soft stops, y'' = loose_load, z = y - x.
+///   x'' + 2h x' + k x + mu sgn x' = f sin(nu tau + phase) + load + soft stops + F sgn z',
+///   y'' = loose_load - F sgn z'/eps, z = y - x.
+/// At z' = 0 friction on the housing holds both together up to a static level.
 /// A soft stop pushes with max(0, kappa depth + 2 zeta sqrt(kappa) depth'); one of infinite kappa is rigid.
 struct MachineScene {
   double damping = 0, stiffness = 1, forcing = 0, frequency = 1, phase = 0, load = 0;
@@ -23,8 +25,9 @@ struct MachineScene {
   double wall_lower = -no_stop, wall_upper = no_stop;
   double wall_R_lower = 1, wall_R_upper = 1;
   double loose_load = 0;
-  double x = 0, v = 0;   ///< of the main mass at the start
-  double z = 0, w = 0;   ///< of the loose mass at the start, as seen from the main one
+  double loose_friction = 0, loose_static = 0;  ///< F and its static level, no less; 0: none
+  double x = 0, v = 0;                          ///< of the main mass at the start
+  double z = 0, w = 0;                          ///< of the loose mass at the start, as seen from the main one
   double step = 0.5;     ///< the longest of a Taylor step, times the fastest rate: the terms left out are below 1e-37
   double still = 1e-26;  ///< a rebound with less of the fastest speed is the last one
   /// Lets each impact come late by so many parts of x, each release by as many of the forces, and moves each place at
@@ -44,6 +47,8 @@ struct MachineEvent {
     reversal,  ///< the velocity of the main mass passes 0 under friction
     press,     ///< a wall begins to take the loose mass along
     release,
+    hold,  ///< friction begins to take the loose mass along, away from the walls
+    hold_end,
     touch,       ///< of a soft stop at its place
     separation,  ///< the force of a soft stop falls to 0
     renewal,     ///< it rises again, beyond the stop's place
@@ -73,7 +78,8 @@ struct MachineRun {
   long double time = 0, x = 0, v = 0, z = 0, w = 0;  ///< at the end
   Range of_x{}, of_y{}, of_z{};
   long double fastest = 0;  ///< the largest |x'| or |z'| at the beginning or the end of a Taylor step
-  long double damped = 0, struck = 0, rubbed = 0;  ///< energy lost to h, in impacts after the start, to friction
+  /// Energy lost to h, in impacts after the start, to friction of the main mass, and to that in the housing.
+  long double damped = 0, struck = 0, rubbed = 0, rubbed_in_housing = 0;
   long double stored = 0;  ///< energy of both masses and the spring at the end, less that after an impact at the start
   /// How near the run was to another course: the least of the speed of a contact, the clearance of a near miss, and
   /// the margin by which a mass was held or let go, each as part of the largest since the last such event.

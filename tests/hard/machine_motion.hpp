@@ -29,7 +29,7 @@ struct Contact {
 
 /// A quantity that ends a mode when it falls to 0.
 struct Guard {
-  enum class Of : std::uint8_t { stop, wall, still, hold, force_gone, force_back, left, press };
+  enum class Of : std::uint8_t { stop, wall, still, hold, force_gone, force_back, left, press, loose_still };
   Of of;
   int side;
   Series p;
@@ -54,15 +54,20 @@ struct Guard {
 
 /// How the masses move, but for soft stops.
 struct Mode {
-  bool held = false;  ///< the main mass doesn't move
-  int slip = 0;       ///< the side to which it moves, against friction
-  int pressed = 0;    ///< the wall that takes the loose mass along; 0: it flies
+  bool held = false;   ///< the main mass doesn't move
+  int slip = 0;        ///< the side to which it moves, against friction
+  int pressed = 0;     ///< the wall that takes the loose mass along; 0: none
+  bool stuck = false;  ///< friction takes the loose mass along
+  int slide = 0;       ///< the side to which the loose mass moves in its housing, against friction
+
+  [[nodiscard]] bool takes_along() const { return pressed != 0 || stuck; }
 };
 
 /// A scene, the state of its masses at an instant, and what becomes of it in a mode.
 struct Motion {
   explicit Motion(const MachineScene& s) : scene(s), anchor(s.x), v(s.v), wall_anchor(s.z), w(s.w) {
     mus = std::max(scene.static_friction, scene.friction);
+    loose_mus = std::max(scene.loose_static, scene.loose_friction);
     stops = {contact(scene.lower, scene.restitution_lower, scene.kappa_lower, scene.zeta_lower),
              contact(scene.upper, scene.restitution_upper, scene.kappa_upper, scene.zeta_upper)};
     walls = {contact(scene.wall_lower, scene.wall_R_lower, no_stop, 0),
@@ -106,19 +111,27 @@ struct Motion {
     return force;
   }
   [[nodiscard]] Quad constant_push(const Mode& mode) const {
-    const Quad loose = mode.pressed != 0 ? Quad(scene.loose_mass) * scene.loose_load : 0;
-    return scene.load - scene.stiffness * anchor - mode.slip * Quad(scene.friction) + loose;
+    const Quad loose = mode.takes_along() ? Quad(scene.loose_mass) * scene.loose_load : 0;
+    const Quad drawn = mode.slide * Quad(scene.loose_friction);
+    return scene.load - scene.stiffness * anchor - mode.slip * Quad(scene.friction) + loose + drawn;
   }
+  /// Of the loose mass alone, y''.
+  [[nodiscard]] Quad loose_push(int slide) const {
+    return scene.loose_load - (slide == 0 ? Quad(0) : slide * Quad(scene.loose_friction) / scene.loose_mass);
+  }
+  /// Whether the loose mass rubs.
+  [[nodiscard]] bool rubs() const { return has_loose && loose_mus > 0; }
   /// The sum of the sizes of all forces.
   [[nodiscard]] Quad force_size() const {
-    const Quad loose = has_loose ? (1 + Quad(scene.loose_mass)) * size_of(scene.loose_load) : 0;
+    const Quad own = size_of(scene.loose_load) + (rubs() ? loose_mus / Quad(scene.loose_mass) : Quad(0));
+    const Quad loose = has_loose ? (1 + Quad(scene.loose_mass)) * own : 0;
     const Quad elastic = size_of(scene.stiffness * anchor) + size_of(stiffness() * q);
     return size_of(scene.forcing) + size_of(scene.load) + elastic + size_of(twice_damping() * v) + mus + loose;
   }
   /// Of the main mass, alone.
-  [[nodiscard]] Quad acceleration(int slip) const {
+  [[nodiscard]] Quad acceleration(int slip, int slide) const {
     const Quad forced = scene.forcing * sinq(Quad(scene.frequency) * time + scene.phase);
-    return forced + constant_push({false, slip, 0}) - stiffness() * q - twice_damping() * v;
+    return forced + constant_push({false, slip, 0, false, slide}) - stiffness() * q - twice_damping() * v;
   }
 
   // The motion in a mode.
@@ -132,7 +145,7 @@ struct Motion {
     Series x{q, v * step};
     if (mode.held) return x;
     const Series force = push(mode, step);
-    const Quad mass = mode.pressed != 0 ? 1 + Quad(scene.loose_mass) : 1;
+    const Quad mass = mode.takes_along() ? 1 + Quad(scene.loose_mass) : 1;
     const Quad pulled = step * step / mass, damped = twice_damping() * step / mass, k = stiffness();
     for (std::size_t n = 0; n + 2 < terms; ++n)
       x[n + 2] = (pulled * (force[n] - k * x[n]) / number(n + 1) - damped * x[n + 1]) / number(n + 2);
@@ -140,9 +153,9 @@ struct Motion {
   }
   [[nodiscard]] Series loose_series(const Mode& mode, const Series& x, Quad step) const {
     Series way{r, w * step};
-    if (mode.pressed != 0 || !has_loose) return way;
+    if (mode.takes_along() || !has_loose) return way;
     for (std::size_t n = 2; n < terms; ++n) way[n] = -x[n];
-    way[2] += scene.loose_load * step * step / 2;
+    way[2] += loose_push(mode.slide) * step * step / 2;
     return way;
   }
 
@@ -165,8 +178,8 @@ struct Motion {
     guard.p[0] += mus;
     return guard;
   }
-  [[nodiscard]] Guard still(int side, const Series& x, Quad step) const {
-    Guard guard{Guard::Of::still, side, {}, force_size() * step * step, 1};
+  [[nodiscard]] Guard still(int side, const Series& x, Quad step, Guard::Of of = Guard::Of::still) const {
+    Guard guard{of, side, {}, force_size() * step * step, 1};
     for (std::size_t n = 0; n + 1 < terms; ++n) guard.p[n] = side * number(n + 1) * x[n + 1];
     return guard;
   }
@@ -178,12 +191,18 @@ struct Motion {
       guard.p[n] = sign * around * (kappa * x[n] + damper * number(n + 1) * x[n + 1] / step);
     return guard;
   }
-  [[nodiscard]] Guard press(const Mode& mode, const Series& x, Quad step) const {
-    Guard guard{Guard::Of::press, mode.pressed, {}, force_size(), 0};
+  /// What is left until the loose mass leaves to the other side: of the force of a wall, of friction, or both.
+  [[nodiscard]] Guard press(int side, const Series& x, Quad step) const {
+    Guard guard{Guard::Of::press, side, {}, force_size(), 0};
     for (std::size_t n = 0; n + 2 < terms; ++n)
-      guard.p[n] = -mode.pressed * number((n + 1) * (n + 2)) * x[n + 2] / (step * step);
-    guard.p[0] += mode.pressed * Quad(scene.loose_load);
+      guard.p[n] = -side * number((n + 1) * (n + 2)) * x[n + 2] / (step * step);
+    guard.p[0] += side * Quad(scene.loose_load);
+    if (rubs()) guard.p[0] += loose_mus / Quad(scene.loose_mass);
     return guard;
+  }
+  /// The sides to which forces take it along: all but that of a wall it is on, which is as strong as need be.
+  [[nodiscard]] bool is_taken_along(const Mode& mode, int side) const {
+    return mode.pressed != 0 ? side == mode.pressed : mode.stuck;
   }
   [[nodiscard]] std::vector<Guard> guards(const Mode& mode, const Series& x, const Series& way, Quad step) const {
     using Of = Guard::Of;
@@ -192,9 +211,10 @@ struct Motion {
       if (mode.held && !is_on_rigid(side)) rows.push_back(hold(side, mode, step));
       if (!mode.held && around == 0 && stop(side).exists)
         rows.push_back(gap(Of::stop, side, x, stop(side).place - anchor, step));
-      if (mode.pressed == 0 && wall(side).exists) rows.push_back(wall_gap(side, way, step));
+      if (!mode.takes_along() && wall(side).exists) rows.push_back(wall_gap(side, way, step));
+      if (!mode.held && is_taken_along(mode, side)) rows.push_back(press(side, x, step));
     }
-    if (!mode.held && mode.pressed != 0) rows.push_back(press(mode, x, step));
+    if (mode.slide != 0) rows.push_back(still(mode.slide, way, step, Of::loose_still));
     if (!mode.held && mus > 0) rows.push_back(still(mode.slip, x, step));
     if (!mode.held && has_force) rows.push_back(force(Of::force_gone, 1, x, step));
     if (!mode.held && around != 0 && !has_force) {
@@ -208,7 +228,7 @@ struct Motion {
   // The state.
 
   MachineScene scene;
-  Quad mus = 0, time = 0;
+  Quad mus = 0, loose_mus = 0, time = 0;
   std::array<Contact, 2> stops{}, walls{};
   bool has_loose = false;
   Quad anchor, q = 0, v;       ///< of the main mass: its place counts from a stop, for the digits of short flights
