@@ -15,6 +15,7 @@ from loose_mass_test import SPIRAL, LooseMass, response, text_of
 LENGTHS = ("x0", "loose_x0", "loose_gap", "loose_lower", "loose_upper", "base_amplitude")
 SPEEDS = ("v0", "loose_v0")
 ACCELERATIONS = ("f", "load", "loose_load")
+LEVELS = ("loose_friction", "loose_friction_static")  # forces that a mirror leaves
 
 
 def drawn(seed):
@@ -30,7 +31,7 @@ def drawn(seed):
 def scaled(scene, length=1.0, rate=1.0):
     """The same motion in other units."""
     powers = {key: (1, 0) for key in LENGTHS} | {key: (1, 1) for key in SPEEDS} | {"h": (0, 1), "nu": (0, 1)}
-    powers |= {key: (1, 2) for key in ACCELERATIONS} | {"stiffness": (0, 2)}
+    powers |= {key: (1, 2) for key in ACCELERATIONS + LEVELS} | {"stiffness": (0, 2)}
     factors = {key: length**p * rate**q for key, (p, q) in powers.items()}
     return {key: value * factors.get(key, 1) for key, value in scene.items()}
 
@@ -50,7 +51,7 @@ def in_scenes(count=8):
         def of_all(self):
             for seed in range(count):
                 with self.subTest(seed=seed):
-                    test(self, drawn(seed))
+                    test(self, self.drawn(seed))
 
         return of_all
 
@@ -58,6 +59,8 @@ def in_scenes(count=8):
 
 
 class Relations(LooseMass):
+    drawn = staticmethod(drawn)
+
     def assert_same(self, one, other, *, length=1.0, rate=1.0, side=1, shift=0.0, tolerance=1e-10):
         """Two runs are one motion, in other units of length and time, mirrored, or shifted."""
         self.assertGreater(len(one["impact_tau"]), 1)
@@ -87,6 +90,7 @@ class Relations(LooseMass):
         machine = {key: si[key] for key in (*LENGTHS, *SPEEDS, *walls, "phase") if key in si}
         machine |= {"mass": mass, "stiffness": si["stiffness"] * mass, "damping": 2 * si["h"] * mass}
         machine |= {"force": si["f"] * mass, "load": si["load"] * mass, "frequency": si["nu"] / (2 * math.pi)}
+        machine |= {key: si[key] * mass for key in LEVELS if key in si}
         machine |= {"loose_mass": f"{1e3 * mass * si['loose_mass']!r} g"}
         one = self.transient(scene, energy=True)
         other = self.transient(machine, 30.0 / 90.0, kind="machine", energy=True)
@@ -176,7 +180,7 @@ class Relations(LooseMass):
         data = self.transient(scene, samples=2, energy=True)
         k, eps = scene["stiffness"], scene["loose_mass"]
         energy = (data["v"] ** 2 + k * data["x"] ** 2 + eps * (data["v"] + data["w"]) ** 2) / 2
-        losses = data["loss_damping"] + data["loss_impact"].sum()
+        losses = data["loss_damping"] + data["loss_impact"].sum() + data.get("loss_friction", 0.0)
         np.testing.assert_allclose(data["work_in"] - losses, energy[1] - energy[0], atol=1e-12)
         self.assertLess(abs(data["energy_residual"]), 1e-12)
         for i, (side, key) in enumerate(((-1, "loose_R_lower"), (1, "loose_R_upper"))):

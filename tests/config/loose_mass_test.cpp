@@ -76,6 +76,48 @@ TEST(LooseMass, is_refused_by_what_does_not_know_it) {
   expect_all("a.toml", table);
 }
 
+TEST(LooseMass, rubs_on_its_housing_only_where_that_is_known) {
+  const std::string rubbing = carried + "loose_friction = 0.01\n";
+  const std::vector<Wrong> table{
+      {"[scene]\nxs = 1\nloose_friction = 0.1\n", "3:1", "'loose_friction' without 'loose_mass'"},
+      {carried + "loose_friction = -1\n", "5:18", "loose_friction = -1 is out of range; expected >= 0"},
+      {rubbing + "loose_friction_static = 0.005\n", "6:25", "expected loose_friction <= loose_friction_static"},
+      {rubbing + "[observe]\nattractor = true\n", "5:18",
+       "friction of the loose mass conflicts with 'attractor' beside 'loose_mass'; leave that out"},
+      {rubbing + "[observe]\nstability = true\n", "5:18", "conflicts with 'stability' beside 'loose_mass'"},
+      {rubbing + "[observe]\nsensitivity = \"nu\"\n", "5:18", "conflicts with 'sensitivity' beside 'loose_mass'"},
+      {rubbing + "[integrator]\nmethod = \"moreau\"\n", "5:18", "take \"exact\" or \"dopri5\""},
+      {rubbing + "[branch]\nalong = \"nu\"\nrange = [0.5, 2]\n", "5:18", "conflicts with [branch]"},
+      {carried + "loose_friction_static = 0.1\n[observe]\nstability = true\n", "5:25", "conflicts with 'stability'"},
+      {carried + "[sweep]\nloose_friction = [0, 0.1]\n[observe]\nstability = true\n", "6:22",
+       "conflicts with 'stability'"},
+      {carried + "[observe]\nsensitivity = \"loose_friction\"\n", "6:15", "names 'loose_friction', which conflicts"},
+      {carried + "[branch]\nalong = \"loose_friction\"\nrange = [0, 1]\n", "6:9",
+       "along = 'loose_friction' conflicts with 'loose_mass'"},
+  };
+  expect_all("a.toml", table);
+  const std::string observed = "[observe]\nstability = true\nattractor = true\nenergy = true\n";
+  EXPECT_FALSE(problem_at(parse_config(carried + "loose_friction = 0\n" + observed, "a").sweep, 0).observe.of_friction);
+  const auto observe = problem_at(parse_config(rubbing + "[observe]\nenergy = true\n", "a").sweep, 0).observe;
+  EXPECT_TRUE(observe.of_friction && !observe.of_sticks && observe.loose_impacts);
+}
+
+TEST(LooseMass, has_friction_in_the_unit_of_the_force) {
+  const LooseMass loose =
+      problem_at(parse_config(carried + "stiffness = 4\nloose_friction = 0.02\n", "a").sweep, 0).loose;
+  EXPECT_EQ(loose.friction, 0.005);  // in units of k = 1
+  EXPECT_EQ(loose.friction_static, 0.005);
+  const LooseMass of_machine =
+      problem_at(parse_config("[machine]\nmass = 0.5\nstiffness = 32\nforce = 1\nfrequency = 2\nloose_mass = \"50 g\"\n"
+                              "loose_gap = \"3 mm\"\nloose_friction = \"16 mN\"\nloose_friction_static = \"32 mN\"\n",
+                              "a")
+                     .sweep,
+                 0)
+          .loose;
+  EXPECT_EQ(of_machine.friction, 0.016 / 32);
+  EXPECT_EQ(of_machine.friction_static, 0.032 / 32);
+}
+
 TEST(LooseMass, is_read_in_both_sections) {
   const Config scene = parse_config(carried + "loose_load = -0.5\nloose_R = 0.5\nloose_x0 = 1\nloose_v0 = 2\n", "a");
   const LooseMass& loose = problem_at(scene.sweep, 0).loose;
@@ -96,8 +138,10 @@ TEST(LooseMass, is_read_in_both_sections) {
 /// The complete text is the scene again; without a loose mass none of its keys is in it.
 TEST(LooseMass, is_in_the_complete_text_only_if_there_is_one) {
   const Config config = parse_config(carried, "a");
-  EXPECT_NE(config.text.find("loose_gap = 2.0\nloose_R = 1.0\nloose_load = 0.0\nloose_x0 = 0.0\nloose_v0 = 0.0\n"),
-            std::string::npos);
+  EXPECT_NE(
+      config.text.find(
+          "loose_gap = 2.0\nloose_R = 1.0\nloose_load = 0.0\nloose_friction = 0.0\nloose_x0 = 0.0\nloose_v0 = 0.0\n"),
+      std::string::npos);
   EXPECT_EQ(parse_config(config.text, "b").text, config.text);
   const std::string beside = parse_config(carried + "stop_upper = 1\nfriction = 0.1\n", "a").text;
   EXPECT_EQ(parse_config(beside, "b").text, beside);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hard/any_machine.hpp"
+#include "hard/any_rubbing_machine.hpp"
 #include "hard/as_machine.hpp"
 #include "hard/machine.hpp"
 #include "hard/tally.hpp"
@@ -91,8 +92,7 @@ constexpr double slow = 1e-7;
 }
 
 /// Works, losses and growth of the energy balance; losses on walls and rigid stops are those of the logged impacts.
-TEST(Machines, keep_their_energy_but_for_work_and_losses) {
-  const Kind kind{"combined", any_machine, 100};
+void expect_balance(const Kind& kind) {
   Tally residual("energy residual", kind), walls("losses on walls", kind);
   in_every_scene(kind, [&](const AnyScene& any) {
     point::Problem problem = any.scene;
@@ -114,6 +114,33 @@ TEST(Machines, keep_their_energy_but_for_work_and_losses) {
     walls.take(any, std::abs(result.wall_loss_impact[0] + result.wall_loss_impact[1] - lost) / (rounding * size));
   });
   residual.conclude(0.9), walls.conclude(0.9);
+}
+
+TEST(Machines, keep_their_energy_but_for_work_and_losses) { expect_balance({"combined", any_machine, 100}); }
+
+TEST(Machines, that_rub_in_the_housing_keep_their_energy_but_for_work_and_losses) {
+  expect_balance({"rubbing", any_rubbing_machine, 100});
+}
+
+/// Without stops and friction of the main mass the ledger is another one.
+TEST(Machines, that_only_rub_in_the_housing_keep_their_energy_but_for_work_and_losses) {
+  const Kind kind{"rubbing alone", any_rubbing_scene, 100};
+  Tally residual("energy residual", kind), rubbed("loss by friction", kind);
+  in_every_scene(kind, [&](const AnyScene& any) {
+    point::Problem problem = any.scene;
+    problem.time.max_impacts = most_contacts;
+    problem.observe.energy = true;
+    point::ThreadScratch scratch;
+    const point::PointResult result = run_point(problem, scratch);
+    const MachineRun reference = run_machine(as_machine(any.scene), any.duration, most_contacts);
+    if (result.status != steady::Status::transient || !reference.finished) return;
+    const double most = std::max({1.0, problem.loose.ratio, static_cast<double>(reference.fastest)});
+    const double size = std::abs(result.work_in) + result.loss_damping + result.loss_friction + most * most * most;
+    residual.take(any, std::abs(result.energy_residual) / (1e-11 * size));
+    const auto expected = static_cast<double>(reference.rubbed_in_housing);
+    rubbed.take(any, std::abs(result.loss_friction - expected) / (1e-6 * size));
+  });
+  residual.conclude(0.9), rubbed.conclude(0.9);
 }
 
 /// A machine of `any_machine` that a force drives, and damping settles.
@@ -166,11 +193,10 @@ TEST(Machines, in_steady_motion_come_back) {
 
 /// Compares the state at the end if roundings of the inputs don't change it much. The program rounds at each event, so
 /// it may be off by what some roundings of all inputs do. Contacts aren't compared: it sums those of a chatter.
-TEST(Machines, with_a_loose_mass_beside_stops_and_friction_are_told_as_taylor_series_tell_them) {
-  constexpr Kind combined{"combined", any_machine, 20};
-  Tally off("state at the end", combined);
+void expect_told_as_by_taylor_series(const Kind& kind) {
+  Tally off("state at the end", kind);
   std::uint64_t scenes = 0, decided = 0, contacts = 0;
-  in_every_scene(combined, [&](const AnyScene& any) {
+  in_every_scene(kind, [&](const AnyScene& any) {
     const Motion reference = simulated(as_machine(any.scene), any.duration);
     const Motion program = told(any.scene);
     double growth = 0;
@@ -191,6 +217,18 @@ TEST(Machines, with_a_loose_mass_beside_stops_and_friction_are_told_as_taylor_se
   });
   off.conclude(0.5);
   std::cout << decided << " of " << scenes << " scenes decided; contacts: " << contacts << "\n";
+}
+
+TEST(Machines, with_a_loose_mass_beside_stops_and_friction_are_told_as_taylor_series_tell_them) {
+  expect_told_as_by_taylor_series({"combined", any_machine, 20});
+}
+
+TEST(Machines, that_rub_in_the_housing_are_told_as_taylor_series_tell_them) {
+  expect_told_as_by_taylor_series({"rubbing", any_rubbing_machine, 20});
+}
+
+TEST(Machines, that_only_rub_in_the_housing_are_told_as_taylor_series_tell_them) {
+  expect_told_as_by_taylor_series({"rubbing alone", any_rubbing_scene, 40});
 }
 
 }  // namespace

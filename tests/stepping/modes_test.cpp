@@ -55,7 +55,8 @@ std::vector<std::string> called_for() {
 
 TEST(Modes, ReadAsTheTableOfTheGuide) {
   EXPECT_EQ(rows_of("mode"), (Table<Lines, Exact<double, Effects{}>>::all()));
-  EXPECT_EQ(rows_of("loose mass"), (std::vector{Lines<>::line(flying_row), Lines<>::line(pressed_row)}));
+  EXPECT_EQ(rows_of("loose mass"), (std::vector{Lines<>::line(flying_row), Lines<>::line(sliding_row),
+                                                Lines<>::line(pressed_row), Lines<>::line(stuck_row)}));
 }
 
 TEST(Modes, AreThoseThatTheEffectsCallFor) {
