@@ -23,9 +23,6 @@ std::optional<Parameter> followed(const Settings& settings, const std::string& k
   return settings.find("branch", key) != nullptr ? Parameter::of(settings.text("branch", key)) : std::nullopt;
 }
 
-/// Whether a key is a level of the friction of a loose mass on its housing.
-bool is_loose_friction(Parameter parameter) { return parameter.is_loose() && parameter.role() == Role::friction; }
-
 /// Keys of a loose mass need the mass.
 void check_completeness(const Settings& settings) {
   for (const Parameter parameter : all_parameters) {

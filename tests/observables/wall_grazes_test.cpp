@@ -55,13 +55,37 @@ TEST(WallGrazes, a_turn_within_rounding_of_the_wall_is_one_and_so_is_an_impact_t
   for (const double sign : {1.0, -1.0})
     for (const double clear : {3.0, 1.5, 0.7, 0.1, -0.1, -0.7, -1.5, -3.0}) {
       const point::Problem scene = Hover(clear * rounding).scene(sign);
-      Watch watch(WallGrazes(scene.loose, rounding));
+      Watch watch(WallGrazes(scene, rounding));
       stepping::Exact<double, effect_sets::with_loose_mass(Damping::light, Forcing::secular)> exact(scene);
       motion::State<double> state = point::start_of(scene);
       ASSERT_EQ(run_for(exact, state, (Hover::late - Hover::begin) / exact.period(), watch),
                 stepping::Outcome::completed);
       EXPECT_EQ(watch.strikes.empty(), clear > 0) << clear;
       EXPECT_EQ(watch.grazes.found(), std::abs(clear) < 1) << clear;
+    }
+}
+
+/// The main mass moves as sin(tau) and meets its stop at tau = 1, the loose one drifts three times as fast and meets
+/// its wall `late` of rounding after that, or before. At the first contact the other mass is nearer than rounding or
+/// not.
+TEST(WallGrazes, contacts_of_both_masses_within_rounding_of_one_instant_are_one) {
+  constexpr double rounding = 1e-10, fast = 3;
+  const double w = fast - std::cos(1.0);
+  for (const double sign : {1.0, -1.0})
+    for (const double late : {-20.0, -6.0, -3.0, -0.5, 0.5, 0.9, 1.5, 3.0, 20.0}) {
+      point::Problem scene = support::loose_scene(0.1, 0, 0, 1, 50, 0.5);
+      scene.start.velocity = sign, scene.loose.velocity = sign * (fast - 1);
+      const double stop = std::sin(1.0), wall = fast - stop + late * rounding;
+      (sign > 0 ? scene.stops.upper : scene.stops.lower) = sign * stop;
+      (sign > 0 ? scene.loose.upper : scene.loose.lower) = sign * wall;
+      scene.stops.restitution_lower = scene.stops.restitution_upper = 0.5;
+      Watch watch(WallGrazes(scene, rounding));
+      stepping::Exact<double, effect_sets::with_everything(Damping::light, Forcing::secular)> exact(scene);
+      motion::State<double> state = point::start_of(scene);
+      ASSERT_EQ(run_for(exact, state, 1.1 / exact.period(), watch), stepping::Outcome::completed);
+      EXPECT_FALSE(watch.strikes.empty());
+      const double gap = late > 0 ? late : -late * std::cos(1.0) / w;
+      EXPECT_EQ(watch.grazes.found(), gap < 1) << sign << ' ' << late;
     }
 }
 
