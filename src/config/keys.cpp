@@ -53,12 +53,13 @@ Key key_of(Parameter parameter, bool is_si) {
   return key;
 }
 
-/// The keys along which a motion can be followed; a second one can't be of a loose mass.
+/// The keys along which a motion can be followed; a second one can't be of a loose mass, and none is its friction.
 std::vector<std::string_view> keys_to_follow(bool with_loose) {
   std::vector<std::string_view> keys;
-  for (const Parameter parameter : all_parameters)
-    if (parameter.role() != Role::start && !parameter.row().is_with_unit && (with_loose || !parameter.is_loose()))
-      keys.push_back(parameter.key());
+  for (const Parameter parameter : all_parameters) {
+    const bool is_its = !parameter.is_loose() || (with_loose && parameter.role() != Role::friction);
+    if (parameter.role() != Role::start && !parameter.row().is_with_unit && is_its) keys.push_back(parameter.key());
+  }
   return keys;
 }
 const std::vector<std::string_view> followed_names = keys_to_follow(true), across_names = keys_to_follow(false);

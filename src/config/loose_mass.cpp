@@ -24,9 +24,6 @@ std::optional<Parameter> followed(const Settings& settings) {
   return along != nullptr ? Parameter::of(settings.text("branch", "along")) : std::nullopt;
 }
 
-/// Whether a key is a level of the friction of a loose mass on its housing.
-bool is_loose_friction(Parameter parameter) { return parameter.is_loose() && parameter.role() == Role::friction; }
-
 /// Keys of a loose mass need the mass.
 void check_completeness(const Settings& settings) {
   for (const Parameter parameter : all_parameters) {
@@ -128,9 +125,9 @@ void check_followed(const Settings& settings, const Own& own_of_main) {
     fail(*own.place, own.name + " conflicts with [branch] beside 'loose_mass'; run a sweep, and give it follow = " +
                          in_quotes(along->key()));
   const Setting &place = *settings.find("branch", "along"), *const range = settings.find("branch", "range");
-  if (conflicts_with_loose_mass(*along) || is_loose_friction(*along))
+  if (conflicts_with_loose_mass(*along))
     refuse(place.location, "along = " + in_quotes(along->key()),
-           "branches have no friction, and a main mass without stops; follow loose_gap, loose_lower, loose_upper or "
+           "branches have a main mass without stops and friction; follow loose_gap, loose_lower, loose_upper or "
            "loose_R");
   const bool needs_positive = *along == loose_mass || *along == Parameter("stiffness");
   if (needs_positive && range != nullptr && !(settings.interval("branch", "range")[0] > 0))

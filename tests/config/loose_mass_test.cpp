@@ -89,8 +89,7 @@ TEST(LooseMass, rubs_on_its_housing_only_where_that_is_known) {
       {carried + "[sweep]\nloose_friction = [0, 0.1]\n[observe]\nstability = true\n", "6:22",
        "conflicts with 'stability'"},
       {carried + "[observe]\nsensitivity = \"loose_friction\"\n", "6:15", "names 'loose_friction', which conflicts"},
-      {carried + "[branch]\nalong = \"loose_friction\"\nrange = [0, 1]\n", "6:9",
-       "along = 'loose_friction' conflicts with 'loose_mass'"},
+      {carried + "[branch]\nalong = \"loose_friction\"\nrange = [0, 1]\n", "6:9", "loose_friction"},
   };
   expect_all("a.toml", table);
   const std::string observed = "[observe]\nstability = true\nattractor = true\nenergy = true\n";
