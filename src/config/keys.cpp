@@ -53,11 +53,14 @@ Key key_of(Parameter parameter, bool is_si) {
   return key;
 }
 
-/// The keys along which a motion can be followed.
+/// The keys along which a motion can be followed: none is the friction of a loose mass.
 std::vector<std::string_view> keys_to_follow() {
   std::vector<std::string_view> keys;
-  for (const Parameter parameter : all_parameters)
-    if (parameter.role() != Role::start && !parameter.row().is_with_unit) keys.push_back(parameter.key());
+  for (const Parameter parameter : all_parameters) {
+    const bool is_its_friction = parameter.is_loose() && parameter.role() == Role::friction;
+    if (parameter.role() != Role::start && !parameter.row().is_with_unit && !is_its_friction)
+      keys.push_back(parameter.key());
+  }
   return keys;
 }
 const std::vector<std::string_view> followed_names = keys_to_follow();

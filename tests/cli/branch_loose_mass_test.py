@@ -105,7 +105,7 @@ class BranchLooseMass(BranchRuns):
             (along("loose_lower", -2, 2, uneven), 2, ("upper wall",)),
             (along("loose_upper", -2, 2, uneven), 2, ("lower wall",)),
             (along("loose_x0", 0, 1), 2, ("expected one of",)),
-            (SCENE + ALONG + 'across = "f"\ncurve = "fold"\n', 2, ("across", "loose_mass")),
+            (SCENE + ALONG + 'across = "f"\ncurve = "fold"\n', 1, ("has no fold", "branch.range")),
             (SCENE.replace("loose_v0 = 0.5\n", "") + ALONG, 1, ("no wall", "loose_v0")),
             (pressed + ALONG, 1, ("presses", "follow")),
         ):

@@ -29,8 +29,6 @@ class Refusals(CommandLine):
         for key in ("R", "stop_upper", "stop_stiffness", "friction", "stop_amplitude"):
             asked = f'{SCENE}[observe]\nsensitivity = "nu, {key}"\n'
             self.assert_told(asked, (f"sensitivity names '{key}'", "loose_mass"))
-        across = f'{SCENE}[branch]\nalong = "nu"\nrange = [1, 2]\nacross = "f"\ncurve = "fold"\n'
-        self.assert_told(across, ("loose_mass", "across"), "branch")
 
     def test_derivatives_by_keys_that_it_lacks(self):
         without = "".join(line + "\n" for line in SCENE.splitlines() if "loose" not in line) + "xs = 1\n"

@@ -25,6 +25,12 @@ constexpr double pi_ = std::numbers::pi;
   scene.loose.friction = kinetic, scene.loose.friction_static = std::max(kinetic, level);
   return scene;
 }
+/// The steady motion of a scene.
+[[nodiscard]] point::PointResult observed(point::Problem scene) {
+  scene.observe.extrema = scene.observe.word = scene.observe.period = scene.observe.energy = true;
+  point::ThreadScratch scratch;
+  return run_point(scene, scratch);
+}
 /// A main mass without spring, damper and force.
 [[nodiscard]] point::Problem free_pair(double eps, double R) {
   point::Problem scene = loose_scene(eps, 0, 0, 1, 0.5, R);
@@ -184,7 +190,7 @@ TEST(LooseFriction, by_dopri5_is_that_of_fifty_digits_to_the_tolerance) {
 /// to a motion whose losses are all the work.
 TEST(LooseFriction, settles) {
   point::Problem scene = rubbing(loose_scene(0.2, 0.05, 0.3, 1.2, 0.4, 0.6), 1);
-  const auto held = support::observed(scene);
+  const auto held = observed(scene);
   ASSERT_EQ(held.status, steady::Status::periodic);
   EXPECT_EQ(held.period_ratio, 1);
   EXPECT_EQ(held.impact_word, "-");
@@ -192,7 +198,7 @@ TEST(LooseFriction, settles) {
   EXPECT_NEAR(held.x_max, amplitude, 1e-9);
   EXPECT_EQ(held.loss_friction, 0);
   for (const double F : {0.005, 0.02, 0.05}) {
-    const auto result = support::observed(rubbing(scene, F));
+    const auto result = observed(rubbing(scene, F));
     ASSERT_EQ(result.status, steady::Status::periodic) << F;
     EXPECT_GT(result.loss_friction, 0) << F;
     EXPECT_NEAR(result.energy_residual, 0, 1e-10) << F;
