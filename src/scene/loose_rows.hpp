@@ -146,7 +146,7 @@ constexpr auto loose_rows() {
       Row{.key = "loose_friction_static",
           .quantity = force,
           .range = not_negative,
-          .in_scene = {"", "0.03",
+          .in_scene = {"", "2",
                        "static level of loose_friction, the largest force with which the housing holds the loose mass, "
                        "no less than loose_friction; without this key equal to it",
                        rubbed, "static friction of the loose mass"},

@@ -17,7 +17,7 @@ from loose_mass_test import LooseMass
 def rubbing(seed):
     """A random scene in which friction stops and holds the loose mass every now and then."""
     scene, draw = relations.drawn(seed), random.Random(1000 + seed)
-    scene["loose_friction"] = scene["loose_mass"] * draw.uniform(0.05, 0.3)
+    scene["loose_friction"] = scene["loose_mass"] * draw.uniform(0.02, 0.12)
     if draw.random() < 0.5:
         scene["loose_friction_static"] = scene["loose_friction"] * draw.uniform(1, 1.5)
     return scene
@@ -63,7 +63,8 @@ class ClosedForms(LooseMass):
         both = 1.2
         gain = 0.3 / np.hypot(1 - both * 1.2**2, 2 * 0.05 * 1.2)
         np.testing.assert_allclose((data["x_max"], data["y_max"]), (gain, gain + 0.1), rtol=1e-9)
-        self.assertEqual((data["z_min"], data["z_max"], data["loss_friction"]), (0.1, 0.1, 0))
+        np.testing.assert_allclose((data["z_min"], data["z_max"]), 0.1, rtol=1e-15)
+        self.assertEqual(data["loss_friction"], 0)
         self.assertEqual(data["impact_word"], "-")
 
     def test_it_slides_once_the_acceleration_is_above_the_friction_over_the_mass(self):

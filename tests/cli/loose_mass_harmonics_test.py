@@ -48,6 +48,8 @@ def errors_of(data, letter, steps):
 
 
 class HousingHarmonics(LooseMass):
+    drawn = staticmethod(drawn)
+
     def exact(self, scene, time, highest=6, kind="scene", **observe):
         asked = {"harmonics": highest, "harmonics_method": "exact", **observe}
         return self.observed(scene, time, asked, kind)

@@ -8,7 +8,8 @@
 #include "stepping/stage.hpp"
 
 /// What makes a loose mass move with the main one: the force of a wall, friction on the housing, or both.
-namespace clatter::stepping::modes {
+namespace clatter::stepping {
+namespace modes {
 
 /// The acceleration of the main mass in that mode; nothing if something holds it.
 template <class Loop, class State>
@@ -85,4 +86,5 @@ template <class State, class Number>
   return true;
 }
 
-}  // namespace clatter::stepping::modes
+}  // namespace modes
+}  // namespace clatter::stepping
