@@ -82,7 +82,7 @@ TEST(LooseMass, rubs_on_its_housing_only_where_that_is_known) {
   const std::vector<Wrong> table{
       {"[scene]\nxs = 1\nloose_friction = 0.1\n", "3:1", "'loose_friction' without 'loose_mass'"},
       {carried + "loose_friction = -1\n", "5:18", "loose_friction = -1 is out of range; expected >= 0"},
-      {rubbing + "loose_friction_static = 0.005\n", "6:25", "expected loose_friction <= loose_friction_static"},
+      {rubbing + "loose_friction_static = 0.005\n", "5:18", "expected loose_friction <= loose_friction_static"},
       {rubbing + "[observe]\nattractor = true\n", "5:18",
        "friction of the loose mass conflicts with 'attractor' beside 'loose_mass'; leave that out"},
       {rubbing + "[observe]\nstability = true\n", "5:18", "conflicts with 'stability' beside 'loose_mass'"},
