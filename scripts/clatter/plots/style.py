@@ -197,7 +197,17 @@ def gathered(notes):
 def constants(output, title, others=()):
     """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
     starts = ("x0", "v0", "loose_x0", "loose_v0", "phase")
-    nothing = (*starts, "load", "loose_load", "damping", "friction", "loose_friction", "stop_amplitude", "base_amplitude", "stop_phase")
+    nothing = (
+        *starts,
+        "load",
+        "loose_load",
+        "damping",
+        "friction",
+        "loose_friction",
+        "stop_amplitude",
+        "base_amplitude",
+        "stop_phase",
+    )
     stiffnesses = ("stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
     hidden = {
         **dict.fromkeys(nothing, 0.0),
