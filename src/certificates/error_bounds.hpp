@@ -9,7 +9,7 @@
 
 #include "certificates/certificate.hpp"
 #include "certificates/recorded_motion.hpp"
-#include "motion/soft_stop.hpp"
+#include "motion/known_soft_stops.hpp"
 #include "point/point.hpp"
 
 namespace clatter::certificates {
@@ -86,7 +86,7 @@ class Bounds {
   [[nodiscard]] ClaimedEvent claimed_contact(const RecordedEvent<n>& event, double x_error, double v_error,
                                              double a) const {
     const bool ends = event.kind == motion::Event::Kind::separation || event.kind == motion::Event::Kind::renewal;
-    const double q = ends ? motion::soft_stop_at<double>(stops_, event.side).relaxation() : 0.0;
+    const double q = ends ? motion::known_soft_stop(stops_, event.side).relaxation() : 0.0;
     return claimed_contact(event, x_error + q * v_error, event.velocity() + q * a, v_error, a);
   }
   /// The acceleration of the main mass at an instant, at which no soft stop pushes.
@@ -103,7 +103,7 @@ class Bounds {
     if (event.side == Side::none) return event.place;
     const double position = event.side == Side::upper ? stops_.upper : stops_.lower;
     if (event.kind != Kind::separation && event.kind != Kind::renewal) return position;
-    return position - motion::soft_stop_at<double>(stops_, event.side).relaxation() * event.velocity();
+    return position - motion::known_soft_stop(stops_, event.side).relaxation() * event.velocity();
   }
   /// Claims a stick or a reversal, the velocity of a slip being 0: it falls to 0 the later the slower it does. A mass
   /// that turns back is pushed that way, one that sticks may be pushed on by less than the friction.
@@ -142,7 +142,7 @@ class Bounds {
     double push =
         oscillator_.forcing * std::sin(oscillator_.frequency * time + phase_) + constant_force(oscillator_, x);
     if (const Side within = soft_stop_beyond(stops_, x); within != Side::none) {
-      const auto stop = motion::soft_stop_at<double>(stops_, within);
+      const auto stop = motion::known_soft_stop(stops_, within);
       push -= stop.stiffness * (x - stop.position);
     }
     return push;
@@ -150,7 +150,7 @@ class Bounds {
   [[nodiscard]] double stiffness_at(double x) const {
     const Side within = soft_stop_beyond(stops_, x);
     const double k = std::abs(oscillator_.stiffness);
-    return within == Side::none ? k : k + motion::soft_stop_at<double>(stops_, within).stiffness;
+    return within == Side::none ? k : k + motion::known_soft_stop(stops_, within).stiffness;
   }
   [[nodiscard]] static double largest(const Sizes& sizes) { return *std::ranges::max_element(sizes); }
 

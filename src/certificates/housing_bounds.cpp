@@ -67,8 +67,8 @@ motion::Event::Main HousingBounds::main_at(const RecordedEvent<4>& event) {
 double HousingBounds::acceleration(const RecordedEvent<4>& event, bool pressed) const {
   const auto [x, v, after] = main_at(event);
   double a = acceleration_at(event.time, x, v);
-  if (const auto within = motion::soft_stop_around<double>(stops_, x, v); within.pressed) {
-    const auto stop = motion::soft_stop_at<double>(stops_, within.side);
+  if (const auto within = motion::known_soft_stop_around(stops_, x, v); within.pressed) {
+    const auto stop = motion::known_soft_stop(stops_, within.side);
     a -= stop.stiffness * within.offset + 2 * stop.damping * v;
   }
   return pressed ? (a + loose_.ratio * loose_.load) / (1 + loose_.ratio) : a;
@@ -111,8 +111,8 @@ double HousingBounds::release_error(const RecordedEvent<4>& event) const {
   const Sizes error = error_after(event.derivative, event.rounding);
   const auto& [place, v, after] = event.main;
   double h = oscillator_.damping, k = oscillator_.stiffness, forces = std::abs(oscillator_.load);
-  if (const auto within = motion::soft_stop_around<double>(stops_, place, v); within.pressed) {
-    const auto stop = motion::soft_stop_at<double>(stops_, within.side);
+  if (const auto within = motion::known_soft_stop_around(stops_, place, v); within.pressed) {
+    const auto stop = motion::known_soft_stop(stops_, within.side);
     h += stop.damping, k += stop.stiffness, forces += std::abs(stop.stiffness * stop.position);
   }
   const double f = oscillator_.forcing, nu = oscillator_.frequency, both = 1 + loose_.ratio;
