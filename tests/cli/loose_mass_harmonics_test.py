@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 from loose_mass_beside_stops_test import with_own_events
-from loose_mass_relations_test import drawn, in_scenes, mirrored, scaled
+from loose_mass_relations_test import drawn, in_scenes, mirrored, pushed_as_by_base, scaled
 from loose_mass_test import ATTRACTING, QUIET, LooseMass, symmetric
 
 LETTERS = "xvzw"
@@ -197,11 +197,8 @@ class Relations(HousingHarmonics):
 
     @in_scenes()
     def test_a_shaken_base_is_a_force_and_no_frame_changes_them(self, scene):
-        b, k, nu, theta = 0.4, scene["stiffness"], scene["nu"], scene["phase"]
-        base, cosine = scene["f"] + b * k, 2 * b * scene["h"] * nu
-        pushed = {"f": math.hypot(base, cosine), "phase": theta + math.atan2(cosine, base)}
-        pushed |= {"x0": scene["x0"] + b * math.sin(theta), "v0": scene["v0"] + b * nu * math.cos(theta)}
-        one = self.exact({**scene, **pushed}, TRANSIENT)
+        b = 0.4
+        one = self.exact(pushed_as_by_base(scene, b), TRANSIENT)
         for frame in FRAMES:
             self.assert_same(one, self.exact({**scene, "base_amplitude": b}, TRANSIENT, frame=frame), "zw")
         for frame in FRAMES:

@@ -43,6 +43,15 @@ def mirrored(scene):
     return {key: -value if key in ACCELERATIONS + SPEEDS + LENGTHS else value for key, value in swapped.items()}
 
 
+def pushed_as_by_base(scene, b):
+    """The scene on the ground, with the force of a base that moves by b sin(nu tau + phase)."""
+    k, nu, theta = scene["stiffness"], scene["nu"], scene["phase"]
+    base, cosine = scene["f"] + b * k, 2 * b * scene["h"] * nu
+    pushed = {"f": math.hypot(base, cosine), "phase": theta + math.atan2(cosine, base)}
+    start = {"x0": scene["x0"] + b * math.sin(theta), "v0": scene["v0"] + b * nu * math.cos(theta)}
+    return {**scene, **pushed, **start}
+
+
 def in_scenes(count=8):
     """Makes a test of a relation that holds for each of so many random scenes."""
 
@@ -118,11 +127,8 @@ class Relations(LooseMass):
 
     @in_scenes()
     def test_a_shaken_base_is_a_force(self, scene):
-        b, k, nu, theta = 0.4, scene["stiffness"], scene["nu"], scene["phase"]
-        base, cosine = scene["f"] + b * k, 2 * b * scene["h"] * nu
-        pushed = {"f": math.hypot(base, cosine), "phase": theta + math.atan2(cosine, base)}
-        pushed |= {"x0": scene["x0"] + b * math.sin(theta), "v0": scene["v0"] + b * nu * math.cos(theta)}
-        one, other = self.transient({**scene, **pushed}), {**scene, "base_amplitude": b}
+        b, nu, theta = 0.4, scene["nu"], scene["phase"]
+        one, other = self.transient(pushed_as_by_base(scene, b)), {**scene, "base_amplitude": b}
         self.assert_same(one, self.transient(other, frame="absolute"))
         relative = self.transient(other)
         np.testing.assert_allclose(relative["x"], one["x"] - b * np.sin(theta + nu * one["tau"]), atol=1e-10)

@@ -26,69 +26,14 @@ from .motion import chosen_points, impact_log, phase_plane, time_history
 from .scatter import word_scatter
 from .scales import constant_value, is_constant, largest, shown_values
 from .names import YES_OR_NO, amount, label, number, plain, result_in_words, symbol
+from .panel_order import BOOKKEEPING, TOGETHER, in_order
 from .style import caption_below, legend_above, new_figure, set_axis
 
-BOOKKEEPING = (
-    "status",
-    "impact_total",
-    "simulated_periods",
-    "settling_estimate",
-    "impact_count",
-    "base_frequency",
-    "energy_residual",
-)
-TOGETHER = (
-    ("x_min", "x_max"),
-    ("v_min", "v_max"),
-    ("y_min", "y_max"),
-    ("z_min", "z_max"),
-    ("v_before", "v_after"),
-    ("work_in", "loss_damping", "loss_friction"),
-)  # results that share a panel
 RECORDS = ("tau", "x", "v")
 TEXTS = ("impact_word", "regime")
 NAMES = (*TEXTS, "attractor")  # results that no scale orders
 LINE = 0.2  # inches, of a line in a table
 MAP_LIMIT = 4  # components of one variable (harmonics, stops) that maps show
-ORDER = (
-    "x_min",
-    "x_max",
-    "v_min",
-    "v_max",
-    "y_min",
-    "y_max",
-    "z_min",
-    "z_max",
-    "symmetric",
-    "period_ratio",
-    "period",
-    "eigenfrequency",
-    "velocity_ratio",
-    "impacts_per_period",
-    "v_before",
-    "v_after",
-    "impact_speed",
-    "rest_fraction",
-    "stick_fraction",
-    "settling_periods",
-    "x_amplitude",
-    "x_phase",
-    "v_amplitude",
-    "v_phase",
-    "z_amplitude",
-    "z_phase",
-    "w_amplitude",
-    "w_phase",
-    "multiplier_re",
-    "multiplier_im",
-    "lyapunov",
-    "work_in",
-    "loss_damping",
-    "loss_friction",
-    "loss_impact",
-    "impulse",
-    "impact_power",
-)
 
 
 def generic_figure(members, only, options):
@@ -245,11 +190,6 @@ def result_groups(output, drawn):
         if present not in groups:
             groups.append(present)
     return groups
-
-
-def in_order(names):
-    """Names in the order of the panels; unknown ones come last."""
-    return sorted(names, key=lambda name: ORDER.index(name) if name in ORDER else len(ORDER))
 
 
 def components(output, group):
