@@ -150,7 +150,7 @@ constexpr auto loose_rows() {
                        "static level of loose_friction, the largest force with which the housing holds the loose mass, "
                        "no less than loose_friction; without this key equal to it",
                        rubbed, "static friction of the loose mass"},
-          .in_machine = {"", "30 mN",
+          .in_machine = {"", "2 N",
                          "static level of loose_friction, the largest force with which the housing holds the loose "
                          "mass, no less than loose_friction; without this key equal to it",
                          machine_rubbed, "static friction of the loose mass"},
