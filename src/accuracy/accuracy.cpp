@@ -51,8 +51,11 @@ double range_error(double low, double high, const observables::Range& reference)
 std::vector<Event> events_of(const point::PointResult& result, bool is_in_housing) {
   std::vector<Event> events;
   for (const observables::LoggedImpact& impact : result.log)
-    events.push_back(
-        {Event::Kind::impact, static_cast<Side>(impact.stop), impact.time, impact.before, 0.0, impact.after});
+    events.push_back({.side = impact.stop > 0 ? Side::upper : Side::lower,
+                      .time = impact.time,
+                      .before = impact.before,
+                      .after = impact.after,
+                      .of_wall = std::abs(impact.stop) == 2});
   events.insert(events.end(), result.rests.begin(), result.rests.end());
   std::ranges::stable_sort(events, {}, &Event::time);  // an impact before the rest that it begins
   return is_in_housing ? with_slow_impacts_summed(events) : events;
@@ -78,6 +81,7 @@ observables::Observe harmonics_over(const point::Problem& scene, double duration
 observables::Observe everything_over(const point::Problem& scene, double duration) {
   observables::Observe observe = harmonics_over(scene, duration);
   observe.extrema = observe.impact_log = observe.full_log = true;
+  observe.wall_log = has_loose_mass(scene.loose);
   return observe;
 }
 

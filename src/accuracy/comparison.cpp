@@ -6,13 +6,13 @@
 namespace clatter::accuracy {
 namespace {
 
-/// The events on one stop; of side none the sticks.
+/// The events on one stop, or on one wall of a loose mass; of side none the sticks.
 struct OfStop {
   std::vector<Event> impacts, chatters, rests;
 
-  OfStop(std::span<const Event> events, Side side) {
+  OfStop(std::span<const Event> events, Side side, bool of_wall) {
     for (const Event& event : with_rests_joined({events.begin(), events.end()})) {
-      if (event.side != side || event.kind == Event::Kind::reversal) continue;
+      if (event.side != side || event.of_wall != of_wall || event.kind == Event::Kind::reversal) continue;
       auto& of_kind = event.kind == Event::Kind::impact    ? impacts
                       : event.kind == Event::Kind::chatter ? chatters
                                                            : rests;
@@ -71,13 +71,15 @@ class Pairing {
     }
   }
 
-  /// Half the time from an impact of the reference to the next (direction 1) or the one before (-1).
+  /// Half the time from an impact of the reference to the next (direction 1) or the one before (-1), and not less than
+  /// the rounding of their times: between a stop and a wall a mass may have several in one instant.
   [[nodiscard]] double half_spacing(std::size_t i, int direction) const {
     const auto& impacts = reference_.impacts;
     const bool first = i == 0, last = i + 1 == impacts.size();
     if (first && last) return latest_;
     const bool ahead = (direction > 0 && !last) || first;
-    return std::abs(impacts[ahead ? i + 1 : i - 1].time - impacts[i].time) / 2;
+    const double rounding = 1e-13 * (1 + impacts[i].time);
+    return std::max(std::abs(impacts[ahead ? i + 1 : i - 1].time - impacts[i].time) / 2, rounding);
   }
   /// The earliest and latest lag of the run's impact behind the reference's.
   [[nodiscard]] double earliest(std::size_t i) const { return std::max(lag_ - half_spacing(i, -1), -latest_); }
@@ -127,8 +129,8 @@ Agreement agreement_of(const RunRecord& in_double, const RunRecord& in_fifty_dig
     const bool chatter = event.kind == Event::Kind::chatter;  // begins later in 50 digits, and ends at the same time
     const double off =
         chatter ? std::abs(event.end() - (j < exact.size() ? exact[j].end() : end)) : std::abs(event.time - other);
-    const bool same =
-        j < exact.size() && exact[j].kind == event.kind && exact[j].side == event.side && off <= tolerance;
+    const bool same = j < exact.size() && exact[j].kind == event.kind && exact[j].side == event.side &&
+                      exact[j].of_wall == event.of_wall && off <= tolerance;
     if (!same && std::min(event.time, other) >= end) return agreement;
     if (!same) {
       agreement.until = std::min(event.time, other);
@@ -146,13 +148,15 @@ ContactErrors compare(std::span<const Event> run, std::span<const Event> referen
   ContactErrors errors;
   double fastest = 0.0;
   for (const Event& event : reference) fastest = std::max(fastest, event.speed());
-  for (const Side side : {Side::lower, Side::none, Side::upper}) {
-    const ContactErrors on_stop = compare_on_stop(OfStop(run, side), OfStop(reference, side), latest);
-    errors.time = std::max(errors.time, on_stop.time), errors.speed = std::max(errors.speed, on_stop.speed);
-    errors.rest = std::max(errors.rest, on_stop.rest);
-    errors.paired += on_stop.paired, errors.rests_paired += on_stop.rests_paired;
-    errors.missed += on_stop.missed, errors.extra += on_stop.extra, errors.rests_missed += on_stop.rests_missed;
-  }
+  for (const bool of_wall : {false, true})
+    for (const Side side : {Side::lower, Side::none, Side::upper}) {
+      const ContactErrors on_stop =
+          compare_on_stop(OfStop(run, side, of_wall), OfStop(reference, side, of_wall), latest);
+      errors.time = std::max(errors.time, on_stop.time), errors.speed = std::max(errors.speed, on_stop.speed);
+      errors.rest = std::max(errors.rest, on_stop.rest);
+      errors.paired += on_stop.paired, errors.rests_paired += on_stop.rests_paired;
+      errors.missed += on_stop.missed, errors.extra += on_stop.extra, errors.rests_missed += on_stop.rests_missed;
+    }
   if (fastest > 0) errors.speed /= fastest;
   return errors;
 }

@@ -15,6 +15,13 @@ using namespace clatter::accuracy::detail;
 
 constexpr double same_time = 1e-9;
 
+/// The last of some events of the mass that an event is of, or nullptr.
+Event* last_of_its_mass(std::vector<Event>& events, const Event& event) {
+  const auto last =
+      std::find_if(events.rbegin(), events.rend(), [&](const Event& other) { return other.of_wall == event.of_wall; });
+  return last != events.rend() ? &*last : nullptr;
+}
+
 }  // namespace
 
 Event as_impact(Event contact) {
@@ -26,11 +33,11 @@ Event as_impact(Event contact) {
 std::vector<Event> with_rests_joined(const std::vector<Event>& events) {
   std::vector<Event> joined;
   for (const Event& event : events) {
-    const bool goes_on = event.lasts() && !joined.empty() && joined.back().kind == event.kind &&
-                         joined.back().side == event.side &&
-                         std::abs(event.time - joined.back().end()) <= same_time * (1 + std::abs(event.time));
+    Event* const last = event.lasts() ? last_of_its_mass(joined, event) : nullptr;
+    const bool goes_on = last != nullptr && last->kind == event.kind && last->side == event.side &&
+                         std::abs(event.time - last->end()) <= same_time * (1 + std::abs(event.time));
     if (goes_on)
-      joined.back().length = event.end() - joined.back().time;
+      last->length = event.end() - last->time;
     else
       joined.push_back(event);
   }
@@ -43,22 +50,27 @@ std::vector<Event> with_slow_impacts_summed(const std::vector<Event>& events) {
   for (const Event& event : events) fastest = std::max(fastest, event.speed());
   std::vector<Event> summed;
   for (const Event& event : events) {
-    const auto is_of_its_chatter = [&](const Event& impact) {
-      return impact.kind == Event::Kind::impact && impact.side == event.side && impact.speed() <= slow * fastest;
-    };
     double begin = event.time;
-    while (event.kind == Event::Kind::rest && !summed.empty() && is_of_its_chatter(summed.back()))
-      begin = summed.back().time, summed.pop_back();
-    if (begin < event.time) summed.push_back({Event::Kind::chatter, event.side, begin, 0.0, event.time - begin});
+    const auto before_it = [&] {
+      const Event* const last = event.kind == Event::Kind::rest ? last_of_its_mass(summed, event) : nullptr;
+      const bool is_of_its_chatter = last != nullptr && last->kind == Event::Kind::impact && last->side == event.side &&
+                                     last->speed() <= slow * fastest;
+      return is_of_its_chatter ? last : nullptr;
+    };
+    while (const Event* const impact = before_it())
+      begin = impact->time, summed.erase(summed.begin() + (impact - summed.data()));
+    if (begin < event.time)
+      summed.push_back({.kind = Event::Kind::chatter,
+                        .side = event.side,
+                        .time = begin,
+                        .length = event.time - begin,
+                        .of_wall = event.of_wall});
     summed.push_back(event);
   }
   return summed;
 }
 
 RunRecord record_of(const point::Problem& scene, double duration) {
-  if (has_loose_mass(scene.loose))
-    return point::with_every_effect_and_mass(
-        scene, [&]<Effects effects>() { return run_over<double, effects>(scene, duration, std::nullopt); });
   const auto motion = point::ExactMotion::of(scene);
   point::MotionRecorder recorder(motion->stops());
   recorder.keep_events();
@@ -72,6 +84,10 @@ RunRecord record_of(const point::Problem& scene, double duration) {
     const bool is_soft_contact = event.kind == Event::Kind::touch || event.kind == Event::Kind::renewal;
     if (event.kind != Event::Kind::separation) record.events.push_back(is_soft_contact ? as_impact(event) : event);
   }
+  if (!has_loose_mass(scene.loose)) return record;
+  const auto [z, w] = motion::place_in_housing(state, scene.loose);
+  record.z = z, record.w = w;
+  record.events = with_slow_impacts_summed(record.events);
   return record;
 }
 RunRecord reference_of(const point::Problem& scene, double duration,

@@ -6,6 +6,7 @@
 #include "motion/loose_tangent.hpp"
 #include "motion/walls.hpp"
 #include "point/every_effect.hpp"
+#include "point/exact_motion.hpp"
 #include "point/fifty_digit_periods.hpp"
 #include "point/fixed_point.hpp"
 #include "stepping/exact.hpp"
@@ -15,14 +16,14 @@ namespace clatter::point {
 namespace {
 
 /// The derivative of the map over so many periods, in double.
-template <Effects E>
 std::optional<motion::LooseJacobian> derivative_over(const Problem& problem, motion::State<double> state,
                                                      std::int64_t periods) {
-  stepping::Exact<double, E> integrator(problem, limits_of(problem));
-  motion::LooseTangent derivative(problem);
+  const auto motion = ExactMotion::of(problem);
+  MotionRecorder recorder(motion->stops());
+  recorder.loose.emplace(problem);
   for (std::int64_t section = 0; section < periods; ++section)
-    if (advance_to_section(integrator, state, 0, derivative) != stepping::Outcome::completed) return std::nullopt;
-  return derivative.map();
+    if (motion->advance_to_section(state, 0, recorder) != stepping::Outcome::completed) return std::nullopt;
+  return recorder.loose->map();
 }
 
 /// The derivative in double serves all iterations: each leaves as small a share of the error as its rounding.
@@ -30,7 +31,7 @@ template <Effects E>
 std::optional<FixedPoint> find_fixed_point(const Problem& problem, const motion::State<double>& near,
                                            std::int64_t periods, const std::function<bool()>& stopped) {
   constexpr int most_iterations = 12;
-  const auto map = derivative_over<E>(problem, near, periods);
+  const auto map = derivative_over(problem, near, periods);
   if (!map) return std::nullopt;
   FixedPoint found;
   found.start.x = near.x, found.start.v = near.v;

@@ -3,271 +3,345 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
-#include "motion/polynomial_arc.hpp"
-#include "stepping/moreau_in_housing.hpp"
-#include "stepping/theta_steps.hpp"
+#include "motion/housed_arc.hpp"
+#include "motion/polynomial_in_housing.hpp"
+#include "stepping/carrying.hpp"
+#include "stepping/modes/housing.hpp"
+#include "stepping/step_velocities.hpp"
 
 namespace clatter::stepping {
 
 /// Moreau-Jean time stepping: the theta method with Newton's restitution at the level of velocities (Moreau 1988, Jean
-/// 1999; Acary & Brogliato 2008, ch. 10). Events are not located: a step ends with the law of impact fulfilled if the
-/// mass, moving on at its present velocity, would be beyond a stop after half of the step.
+/// 1999; Acary & Brogliato 2008, ch. 10). Events are not located. A step ends with the law of impact fulfilled if the
+/// mass, moving on at its present velocity, would be beyond a stop, or a loose one beyond a wall, after half of the
+/// step.
 ///
-/// The position moves with the mean velocity, of weight theta at the end and 1 - theta at the beginning, so the impulse
+/// Positions move with the mean velocity, of weight theta at the end and 1 - theta at the beginning, so the impulse
 /// acts 1 - theta of a step after its beginning, and the impact is reported there. Flights shorter than a step can't be
-/// told from rest: a rebound that the force would end within the step is taken for rest.
+/// told from rest: a rebound that the force would end within the step is taken for rest. If both masses have an impact
+/// in one step, the loose one has its own in the next.
 ///
 /// A soft stop is a force, and acts in all of a step or in none: in those in the middle of which the mass, moving on at
 /// its present velocity, would be pushed by it (eq. 50).
 ///
-/// Dry friction is an impulse at the end of a step, of at most mu over it, that takes the velocity towards 0 and not
-/// beyond: a mass sticks for whole steps. A step in which it stands, or turns back, ends without speed if the impulse
-/// of all other forces is within the static level.
+/// Dry friction is an impulse at the end of a step, of at most its level over it, that takes the velocity towards 0 and
+/// not beyond: a mass sticks for whole steps. A step in which it stands, or turns back, ends without speed if the
+/// impulse of all other forces is within the static level.
 ///
-/// A loose mass has a specialization.
+/// A loose mass flies, or slides beside a main mass that friction draws along, or moves with that as one for whole
+/// steps: in those in which the wall has to push, and friction to hold no more than it can.
 template <Effects E>
-class Moreau : public ThetaSteps<E> {
-  using Base = ThetaSteps<E>;
+class Moreau : public StepVelocities<E> {
+  using Base = StepVelocities<E>;
+  using typename Base::Kind, typename Base::State, typename Base::Step;
 
  public:
   static constexpr bool in_closed_form = false;
 
   explicit Moreau(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
-      : Base(scene, integration, limits) {}
+      : Base(scene, integration, limits), housing_(*this, with_numbers<double>(scene)) {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and reports every step's arcs
   /// and events with their times since the section `origin`.
   template <class Observer>
-  [[nodiscard]] Outcome advance(motion::State<double>& state, double end, std::int64_t origin, Observer& observer) {
+  [[nodiscard]] Outcome advance(State& state, double end, std::int64_t origin, Observer& observer) {
     Stage<Moreau, Observer> stage(*this, state, end, origin, observer);
-    sine_ = this->phase(state).sine;
-    if constexpr (E.soft) begin_beyond(state);
+    this->sine_ = this->phase(state).sine;
+    if constexpr (E.soft)
+      if (state.within == Side::none) this->look_beyond(state, 0.0);  // a start beyond a soft stop's place is no touch
     if (!bounce_off(stage)) return Outcome::event_budget;
     while (end - state.phase_turns > 2 * epsilon<double>()) {
       this->report(state);
-      if (!step(stage, next_turns(state.phase_turns, end))) return Outcome::event_budget;
+      if (!step(stage, this->next_turns(state.phase_turns, end))) return Outcome::event_budget;
     }
     state.phase_turns = end;
     return this->outcome_of(state);
   }
 
- private:
-  using Kind = motion::Event::Kind;
+  [[nodiscard]] const motion::Walls<double>& walls() const requires(E.loose) { return housing_.walls; }
 
-  /// Takes the impact of a mass that is on a stop and moves into it, as only a start can, before any time passes; false
-  /// if it is one too many.
+ private:
+  /// The loose mass in a part of a step: z' at its end and y'', or moving with the main mass.
+  struct Beside {
+    double w = 0.0, load = 0.0;
+    bool as_one = false;
+  };
+
+  /// Takes the impacts of masses that are on a stop, or a wall, and move into it, as only a start can, before any time
+  /// passes; false if it is one too many.
   template <class Stage>
   [[nodiscard]] bool bounce_off(Stage& stage) {
-    motion::State<double>& state = stage.state;
+    State& state = stage.state;
     for (const Side side : {Side::lower, Side::upper}) {
       if (E.soft && is_soft(this->stops(), side)) continue;
       const auto stop = motion::stop_at<double>(this->stops(), side);
       if (state.x != stop.position || !(stop.into(state.v) > 0)) continue;
       const double before = std::exchange(state.v, stop.law.after(state.v));
+      if (state.loose.wall != Side::none) state.loose.speed += before - state.v;
       stage.show_impact(stop, before);
-      return this->count_impact();
+      if (!this->count_impact()) return false;
+    }
+    if constexpr (E.loose) {
+      const motion::LooseState<double> loose = state.loose;
+      const auto& rule = walls().rule;
+      if (loose.wall != Side::none && loose.place == 0 && sign_of(loose.wall) * loose.speed > 0)
+        return strike(stage, loose.wall, loose.speed, rule.law(loose.wall).after(loose.speed),
+                      rule.main_after(state.v, loose.speed));
     }
     return true;
-  }
-
-  /// A step without regard to the stops.
-  struct Free {
-    double length, sine, v;  ///< in tau; sine of the forcing phase and velocity at its end
-  };
-
-  template <class Constants>
-  [[nodiscard]] Free free_step(const Constants& constants, const motion::State<double>& state, double turns) {
-    const auto end = this->step_end(constants, state, turns);
-    return {end.length, end.sine, rubbed(end.momentum, state.v, end.length) / end.mass};
-  }
-
-  /// Of the momentum at the end of a step what friction leaves.
-  [[nodiscard]] double rubbed(double momentum, double v, double length) const {
-    if constexpr (E.friction) {
-      if (!this->is_rough()) return momentum;
-      const double most = this->slips().kinetic * length, hold = this->slips().static_level * length;
-      const bool turns = momentum * v <= 0;  // or stands
-      if (std::abs(momentum) <= most || (turns && std::abs(momentum - v) <= hold)) return 0.0;
-      return momentum - std::copysign(most, momentum);
-    }
-    return momentum;
-  }
-
-  /// The rigid stop that the mass is beyond in the middle of the step, at its present velocity.
-  [[nodiscard]] Side active(const motion::State<double>& state, double length) const {
-    const double x = state.x + length / 2 * state.v;
-    if (x <= this->stops().lower && !(E.soft && is_soft(this->stops(), Side::lower))) return Side::lower;
-    return x >= this->stops().upper && !(E.soft && is_soft(this->stops(), Side::upper)) ? Side::upper : Side::none;
-  }
-
-  /// The soft stop beyond whose position the mass is, and whether it pushes, a time later at its present velocity.
-  void look_beyond(motion::State<double>& state, double later) const {
-    const auto around = motion::soft_stop_around(this->stops(), state.x + later * state.v, state.v);
-    state.within = around.side, state.pressed = around.pressed;
-  }
-  /// A start beyond a soft stop's position is no touch.
-  void begin_beyond(motion::State<double>& state) const {
-    if (state.within == Side::none) look_beyond(state, 0.0);
-  }
-
-  /// Finds whether a soft stop acts in the next step, and reports a contact that begins or ends; false if it is one too
-  /// many.
-  template <class Stage>
-  [[nodiscard]] bool meet(Stage& stage, double length) {
-    motion::State<double>& state = stage.state;
-    const Side was_within = state.within;
-    const bool was_pressed = state.pressed;
-    look_beyond(state, length / 2);
-    const bool goes_on = was_pressed && state.pressed && was_within == state.within;
-    if (was_pressed && !goes_on) stage.show_contact(Kind::separation, was_within);
-    if (!state.pressed || goes_on) return true;
-    stage.show_contact(was_within != state.within ? Kind::touch : Kind::renewal, state.within);
-    return this->count_impact();
   }
 
   /// A step to the phase `turns`; false if it takes one impact too many.
   template <class Stage>
   [[nodiscard]] bool step(Stage& stage, double turns) {
-    motion::State<double>& state = stage.state;
-    if constexpr (E.soft) {
-      if (!meet(stage, (turns - state.phase_turns) * this->period())) return false;
-      if (state.pressed) {
-        this->in_contact(state.within, [&](const auto& constants) {
-          const Free pressed = free_step(constants, state, turns);
-          if (!stand(stage, pressed, turns)) {
-            turn(constants, stage, pressed);
-            fly_in_contact(constants, stage, pressed);
-          }
-          sine_ = pressed.sine;
-        });
-        state.phase_turns = turns;
-        return true;
-      }
-    }
-    const Free free = free_step(this->constants(), state, turns);
-    if (stand(stage, free, turns)) {
-      state.phase_turns = turns, sine_ = free.sine;
-      return true;
-    }
-    turn(this->constants(), stage, free);
-    const Side side = active(state, free.length);
-    const auto stop = motion::stop_at<double>(this->stops(), side);
-    const bool impulse = side != Side::none && stop.into(free.v) > stop.into(stop.law.after(state.v));
+    State& state = stage.state;
+    const double length = (turns - state.phase_turns) * this->period();
+    if constexpr (E.soft)
+      if (!this->meet(stage, length)) return false;
     bool affordable = true;
-    if (!impulse) {
-      fly(slipping(state.v, free.v), 0.0, stage, free);
-    } else if (state.v == 0) {
-      rest(stage, stop, turns);
-    } else {
-      collide(stage, stop, free);
-      affordable = this->count_impact();
-    }
-    state.phase_turns = turns, sine_ = free.sine;
+    if constexpr (E.loose)
+      affordable = step_in_housing(stage, turns);
+    else
+      affordable = perform(*this, stage, this->step_of(*this, state, turns), {});
+    state.phase_turns = turns;
     return affordable;
   }
 
-  /// Whether friction holds the mass for a whole step, which is then reported: on a rigid stop as rest.
-  template <class Stage>
-  [[nodiscard]] bool stand(Stage& stage, const Free& free, double turns) {
-    motion::State<double>& state = stage.state;
-    if constexpr (E.friction) {
-      if (!this->is_rough() || state.v != 0 || free.v != 0) return false;
-      const Side side = active(state, free.length);
-      if (side != Side::none) state.x = motion::stop_at<double>(this->stops(), side).position;
-      stage.show_rest(side, turns - state.phase_turns, true);
-      slid_ = 0.0;
-      return true;
-    }
-    return false;
-  }
-  /// Reports that the mass has turned back since its last slip, in this step or at the end of the one before.
-  template <class Constants, class Stage>
-  void turn(const Constants& constants, Stage& stage, const Free& free) {
-    motion::State<double>& state = stage.state;
-    if constexpr (E.friction) {
-      const double way = free.v != 0 ? free.v : state.v;
-      if (!this->is_rough() || way == 0) return;
-      const double push = force(constants, state.x, 0.0, sine_), rubs = std::copysign(this->slips().kinetic, way);
-      const bool turns_back = std::exchange(slid_, way) * way < 0 && (push - rubs) * (push + rubs) > 0;
-      if (turns_back && state.v * way <= 0) stage.show_reversal(push + rubs, push - rubs);
-    }
-  }
-  /// The constants of a free mass in a step between two velocities.
-  [[nodiscard]] const auto& slipping(double v, double v_end) const {
-    if constexpr (E.friction)
-      if (this->is_rough()) return this->slips().towards((v != 0 ? v : v_end) > 0 ? Side::upper : Side::lower);
-    return this->constants();
-  }
-  template <class Constants, class Stage>
-  void fly_in_contact(const Constants& constants, Stage& stage, const Free& pressed) const {
-    motion::State<double>& state = stage.state;
-    const double position = constants.stop.position;
-    if constexpr (E.friction)
-      if (this->is_rough()) {
-        const Side ahead = (state.v != 0 ? state.v : pressed.v) > 0 ? Side::upper : Side::lower;
-        return this->slips().in_contact(state.within, ahead,
-                                        [&](const auto& slip) { fly(slip, position, stage, pressed); });
-      }
-    fly(constants, position, stage, pressed);
-  }
-
-  /// Moves on to the end of a step; arcs are given by distances from an anchor.
-  template <Effects Of, class Stage>
-  void fly(const motion::ArcConstants<double, Of>& constants, double anchor, Stage& stage, const Free& free) const {
-    motion::State<double>& state = stage.state;
-    const double x = state.x + free.length * (theta_ * free.v + (1 - theta_) * state.v);
-    stage.show(arc(constants, anchor, state.phase_turns, free.length,
-                   cubic(free.length, {state.x - anchor, state.v}, {x - anchor, free.v}),
-                   cubic(free.length, {state.v, (free.v - state.v) / free.length},
-                         {free.v, (free.v - state.v) / free.length})),
-               free.length);
-    state.x = x, state.v = free.v;
-  }
-
-  template <class Stage>
-  void rest(Stage& stage, const motion::Stop<double>& stop, double turns) {
-    motion::State<double>& state = stage.state;
-    state.x = stop.position, slid_ = 0.0;
-    stage.show_rest(stop.side, turns - state.phase_turns, true);
-  }
-
-  /// Moves with the velocity before the impulse until it acts, and with the one after it from there.
-  template <class Stage>
-  void collide(Stage& stage, const motion::Stop<double>& stop, const Free& free) {
-    motion::State<double>& state = stage.state;
-    const double before = stop.into(state.v) > 0 ? state.v : free.v;  // leaving too slowly: pushed back by the force
-    const double pressed = stop.into(force(this->constants(), stop.position, 0.0, free.sine)),
-                 rebound = -stop.into(stop.law.after(before));
-    const double after = 2 * rebound > pressed * free.length && stop.into(state.v) > 0 ? stop.law.after(before) : 0;
-    constexpr double least = 1e-6;  // of a step: the impact must not coincide with its beginning
-    const double until = std::max(1 - theta_, least) * free.length;
-    drift(stage, until);
-    state.v = slid_ = after + 0.0;  // no negative zero
-    stage.show_impact(stop, before);
-    if (after == 0) {
-      state.x = stop.position;
-      stage.show_rest(stop.side, (free.length - until) / this->period(), true);
+  /// Carries out a step of the main mass; false if it takes one impact too many.
+  template <class Mass, class Stage>
+  [[nodiscard]] bool perform(const Mass& mass, Stage& stage, const Step& step, const Beside& beside) {
+    State& state = stage.state;
+    bool affordable = true;
+    if (step.holds(state.v)) {
+      hold(mass, stage, step, step.length, beside);
     } else {
-      drift(stage, free.length - until);
+      this->turn(mass, stage, step);
+      if (step.hits(state.v))
+        affordable = collide(mass, stage, step, beside);
+      else
+        move(mass, stage, step.length, step.v, beside);
+    }
+    this->sine_ = step.sine;
+    return affordable;
+  }
+
+  /// Moves with the velocities before the impulse of a stop until it acts, and with those after it from there.
+  template <class Mass, class Stage>
+  [[nodiscard]] bool collide(const Mass& mass, Stage& stage, const Step& step, const Beside& beside) {
+    State& state = stage.state;
+    const auto stop = motion::stop_at<double>(this->stops(), step.stop);
+    const double before = this->arriving(stop, state.v, step), until = this->until_impulse(step);
+    drift(mass, stage, until, beside);
+    state.v = this->slid_ = step.v;
+    if constexpr (E.loose) {
+      motion::LooseState<double>& loose = state.loose;  // y' has no impulse
+      loose.speed = loose.wall != Side::none ? beside.w : loose.speed + beside.load * step.length;
+    }
+    stage.show_impact(stop, before);
+    if (step.v == 0)
+      hold(mass, stage, step, step.length - until, beside);
+    else
+      drift(mass, stage, step.length - until, beside);
+    return this->count_impact();
+  }
+
+  /// Moves on to a velocity, which changes evenly.
+  template <class Mass, class Stage>
+  void move(const Mass& mass, Stage& stage, double length, double v_end, const Beside& beside) {
+    const State& state = stage.state;
+    const double x = state.x + this->way(length, state.v, v_end);
+    const auto go = [&](const auto& constants, double anchor) {
+      const auto main = this->arc(constants, anchor, state.phase_turns, length,
+                                  cubic(length, {state.x - anchor, state.v}, {x - anchor, v_end}),
+                                  this->ramp(length, state.v, v_end));
+      pass(stage, main, length, x, v_end, beside);
+    };
+    const Side ahead = (state.v != 0 ? state.v : v_end) > 0 ? Side::upper : Side::lower;
+    const bool is_within = E.soft && state.pressed;
+    const double anchor = is_within ? motion::stop_at<double>(mass.stops(), state.within).position : 0.0;
+    const auto anchored = [&](const auto& constants) { go(constants, anchor); };
+    if constexpr (E.friction)
+      if (mass.is_rough())
+        return is_within ? mass.slips().in_contact(state.within, ahead, anchored)
+                         : anchored(mass.slips().towards(ahead));
+    this->with_oscillator(mass, state, anchored);
+  }
+  /// Moves on with the present velocities.
+  template <class Mass, class Stage>
+  void drift(const Mass& mass, Stage& stage, double length, Beside beside) {
+    if constexpr (E.loose) beside.w = modes::loose_start_of(*this, stage.state).w;
+    move(mass, stage, length, stage.state.v, beside);
+  }
+  /// A stop, or friction, holds the main mass: on a rigid stop that is rest.
+  template <class Mass, class Stage>
+  void hold(const Mass& mass, Stage& stage, const Step& step, double length, const Beside& beside) {
+    State& state = stage.state;
+    const Side side = step.stands ? this->active(state, step.length) : step.stop;
+    if (side != Side::none) state.x = motion::stop_at<double>(this->stops(), side).position;
+    state.v = this->slid_ = 0.0;
+    const auto& constants = mass.constants();
+    stage.show_rest(side, length / this->period(), true, beside.as_one ? constants.carried : 0.0,
+                    beside.as_one ? 0.0 : constants.rubbing);
+    if constexpr (E.loose) {
+      const auto none = this->ramp(length, 0.0, 0.0);
+      pass(stage, this->arc(housing_.held(beside.as_one), state.x, state.phase_turns, length, none, none), length,
+           state.x, 0.0, beside);
     }
   }
 
-  /// Moves on with the present velocity.
-  template <class Stage>
-  void drift(Stage& stage, double length) const {
-    motion::State<double>& state = stage.state;
-    const double x = state.x + length * state.v;
-    stage.show(arc(slipping(state.v, state.v), 0.0, state.phase_turns, length,
-                   cubic(length, {state.x, state.v}, {x, state.v}), cubic(length, {state.v, 0.0}, {state.v, 0.0})),
-               length);
-    state.x = x, state.phase_turns += length / this->period();
+  /// Shows a part of a step in which the main mass moves to x with the velocity v there, and goes on to its end.
+  template <class Stage, class A>
+  void pass(Stage& stage, const A& main, double length, double x, double v, const Beside& beside) {
+    State& state = stage.state;
+    if constexpr (!E.loose) {
+      stage.show(main, length);
+      state.x = x, state.v = v;
+    } else if (beside.as_one) {
+      modes::show_as_one(*this, stage, main, length);
+      state.x = x, state.v = v;
+    } else {
+      const motion::RelativeStart<double> from = modes::loose_start_of(*this, state);
+      const double offset = from.offset + this->way(length, from.w, beside.w);
+      const motion::PolynomialInHousing in_housing(main, from.origin, beside.load,
+                                                   cubic(length, {from.offset, from.w}, {offset, beside.w}),
+                                                   this->ramp(length, from.w, beside.w));
+      stage.show(motion::HousedArc{main, in_housing}, length);
+      state.x = x, state.v = v;
+      if (state.loose.wall != Side::none || beside.load != 0 || state.loose.speed != 0)
+        Base::move_loose(state, offset, beside.w);
+    }
+    stage.pass(length);
   }
 
-  using Base::arc, Base::force, Base::next_turns, Base::sine_, Base::theta_;
+  /// A step with a loose mass; false if it takes one impact too many.
+  template <class Stage>
+  [[nodiscard]] bool step_in_housing(Stage& stage, double turns) {
+    State& state = stage.state;
+    motion::LooseState<double>& loose = state.loose;
+    const motion::RelativeStart<double> from = modes::loose_start_of(*this, state);
+    return housing_.carrying.with_mass([&](const auto& both) {
+      Side towards = from.w < 0 ? Side::lower : Side::upper;
+      if (loose.pressed || (walls().is_rough() && from.w == 0)) {
+        const Step step = this->step_of(both, state, turns);
+        const auto hold = Base::hold_in(walls(), state, step, 0.0, walls().hold);
+        loose.pressed = hold.holds && !step.hits(state.v);  // it goes on with its velocity where the main mass bounces
+        if (loose.pressed) return perform(both, stage, step, {.as_one = true});
+        towards = hold.leaves_to();
+      }
+      return beside(towards,
+                    [&](const auto& mass, double load) { return fly(both, mass, stage, turns, from, towards, load); });
+    });
+  }
+  /// Calls `function(mass, load)` with the main mass, and y'', while the loose one flies, or slides to a side.
+  template <class Function>
+  decltype(auto) beside(Side towards, Function&& function) const {
+    if (!walls().is_rough()) return function(static_cast<const MainMass<double, E>&>(*this), walls().load);
+    return function(housing_.slide(towards).mass, housing_.slide(towards).walls.load);
+  }
 
-  double slid_ = 0.0;  ///< velocity of the last slip; 0 if the mass has stood since
+  /// A step in which the loose mass moves in its housing, meets a wall, or comes to a stop.
+  template <class Both, class Mass, class Stage>
+  [[nodiscard]] bool fly(const Both& both, const Mass& mass, Stage& stage, double turns,
+                         const motion::RelativeStart<double>& from, Side towards, double load) {
+    State& state = stage.state;
+    const Step step = this->step_of(mass, state, turns);
+    const double w = from.w + (load * step.length - (step.v - state.v));
+    const Side wall = step.hits(state.v) ? Side::none : Base::active_wall(walls(), from, step.length);
+    if (wall != Side::none && sign_of(wall) * w > sign_of(wall) * walls().rule.law(wall).after(from.w)) {
+      if (from.w != 0) return meet_wall(both, mass, stage, step, from.w, w, turns, wall, load);
+      press(stage, wall);
+      return perform(both, stage, this->step_of(both, state, turns), {.as_one = true});
+    }
+    const bool turns_back = walls().is_rough() && from.w != 0 && !(sign_of(towards) * w > 0) && !step.hits(state.v);
+    if (turns_back) return stop_sliding(both, mass, stage, turns, from.w, towards);
+    return perform(mass, stage, step, {w, load});
+  }
+  /// Ends a slide, or turns it back.
+  template <class Both, class Mass, class Stage>
+  [[nodiscard]] bool stop_sliding(const Both& both, const Mass& mass, Stage& stage, double turns, double w,
+                                  Side towards) {
+    State& state = stage.state;
+    const double load = housing_.slide(towards).walls.load, kinetic = std::abs(load - walls().load);
+    const Step step = this->step_of(both, state, turns, walls().rule.share() * w);
+    const auto stops = Base::hold_in(walls(), state, step, w, kinetic);
+    const double others = stops.needed + w / (1 + walls().rule.ratio);  // than what z' takes itself
+    if (stops.holds || std::abs(others) <= walls().hold * step.length) {
+      const bool affordable = perform(mass, stage, step, {0.0, load});
+      state.loose.speed = 0, state.loose.pressed = true;
+      return affordable;
+    }
+    return beside(opposite(towards), [&](const auto& turned, double driven) {
+      const Step back = this->step_of(turned, state, turns);
+      return perform(turned, stage, back, {w + (driven * back.length - (back.v - state.v)), driven});
+    });
+  }
+
+  /// Moves with the velocities before the impulse of a wall until it acts, and with those after it from there. `w`: z'
+  /// at the beginning of the step, and without that impulse at its end.
+  template <class Both, class Mass, class Stage>
+  [[nodiscard]] bool meet_wall(const Both& both, const Mass& mass, Stage& stage, const Step& alone, double w,
+                               double w_free, double turns, Side wall, double load) {
+    State& state = stage.state;
+    const int sign = sign_of(wall);
+    const double before = sign * w > 0 ? w : w_free;  // leaving too slowly: pushed back by the forces
+    const double rebound = walls().rule.law(wall).after(before), until = this->until_impulse(alone);
+    const double a = alone.holds(state.v) ? 0.0 : this->force(mass.constants(), state.x, state.v, alone.sine);
+    const bool flies = -2 * sign * rebound > sign * (load - a) * alone.length && sign * w > 0;
+    const double after = flies ? rebound + 0.0 : 0.0;
+    const Step struck = this->step_of(both, state, turns, walls().rule.share() * (w - after));
+    if (alone.holds(state.v))
+      hold(mass, stage, alone, until, {w, load});
+    else
+      drift(mass, stage, until, {w, load});
+    const auto there = modes::loose_start_of(*this, state);
+    const bool affordable = strike(stage, wall, before, after, struck.free);
+    if (flies)
+      state.loose.place = there.origin + there.offset - walls().place(wall);
+    else
+      press(stage, wall);
+    const auto go_on = [&](const auto& of) {
+      const Beside then{after, load, !flies};
+      if (struck.stands)
+        hold(of, stage, struck, alone.length - until, then);
+      else
+        drift(of, stage, alone.length - until, then);
+    };
+    flies ? go_on(mass) : go_on(both);
+    this->sine_ = alone.sine;
+    return affordable;
+  }
+
+  /// Changes the velocities by an impact, and reports it; false if it is one too many.
+  template <class Stage>
+  [[nodiscard]] bool strike(Stage& stage, Side side, double before, double after, double v_after) {
+    State& state = stage.state;
+    const double v_before = std::exchange(state.v, v_after);
+    state.loose = {side, 0.0, after + 0.0};  // no negative zero
+    stage.show({.kind = Kind::strike,
+                .side = side,
+                .time = stage.time(),
+                .before = before,
+                .after = state.loose.speed,
+                .place = walls().place(side),
+                .turns = state.phase_turns,
+                .main = laws::main_at(state, v_before)});
+    return this->count_impact();
+  }
+  template <class Stage>
+  void press(Stage& stage, Side side) const {
+    State& state = stage.state;
+    state.loose = {side, 0.0, 0.0, true};
+    stage.show({.kind = Kind::press,
+                .side = side,
+                .time = stage.time(),
+                .place = walls().place(side),
+                .main = laws::main_at(state, state.v)});
+  }
+
+  [[no_unique_address]] std::conditional_t<E.loose, Housing<double, E>, NoHousing> housing_;
 };
 
 }  // namespace clatter::stepping

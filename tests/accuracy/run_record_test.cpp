@@ -132,6 +132,9 @@ TEST(RestsJoined, are_one_for_each_stay) {
   const auto stick = [](double time, double length) { return Event{Event::Kind::stick, Side::none, time, 0, length}; };
   const Event reversal{Event::Kind::reversal, Side::none, 5};
   EXPECT_EQ(with_rests_joined({stick(1, 1), stick(2, 1), stick(3.5, 1), reversal, reversal}).size(), 4u);
+  Event of_loose = stick(2, 1);  // cut by the section that cuts that of the main mass
+  of_loose.of_wall = true;
+  EXPECT_EQ(with_rests_joined({of_loose, stick(2.5, 0.5), stick(3, 1), of_loose}).size(), 3u);
   point::Problem scene = with_rests();
   scene.start.phase = 2;  // the section at 1 period lies in a rest
   const RunRecord record = record_of(scene, 2 * period_of(scene));

@@ -13,6 +13,8 @@ from accuracy_runs import AccuracyRuns, objects
 DAMPER = "[scene]\nh = 0.005\nf = 0.01\nnu = 1.0\nloose_mass = 0.02\nloose_gap = 0.4\nloose_R = 0.8\n"
 PRESSED = "[scene]\nh = 0.1\nf = 0.4\nnu = 0.6\nloose_mass = 0.5\nloose_lower = -0.1\nloose_upper = 1.0\n"
 PRESSED += "loose_R = 0.3\nloose_load = -0.3\n"
+RUBBING = "[scene]\nh = 0.05\nf = 1.0\nnu = 1.1\nxs = 0.8\nR = 0.6\nfriction = 0.05\n"
+RUBBING += "loose_mass = 0.2\nloose_gap = 0.5\nloose_R = 0.6\nloose_friction = 0.01\n"
 SPEED = 0.418893828273064  # z' at impacts of the steady motion of DAMPER (Masri & Caughey 1966)
 
 
@@ -47,6 +49,16 @@ class LooseMassAccuracy(AccuracyRuns):
         self.assert_errors_fall(rows, "dopri5", "error_rest", (1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11), 1.3)
         with h5py.File(self.directory / "a.h5") as file:
             self.assertGreater(file["reference_rests"][()], 3)
+
+    def test_contacts_rests_and_sticks_of_both_masses_are_compared(self):
+        rows = self.rows_of(RUBBING + '[time]\nmode = "transient"\nduration = 60.0\n')
+        exact = rows[0]
+        self.assertEqual((exact["missed"], exact["doubled"], exact["rests_missed"]), (0, 0, 0))
+        self.assertGreater(exact["impacts"], 30)
+        for key in ("error_contact_time", "error_contact_speed", "error_rest", "error_extrema", "error_harmonics"):
+            self.assertLess(exact[key], 1e-12, key)
+        self.assert_errors_fall(rows, "dopri5", "error_extrema", (1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11), 1.3)
+        self.assert_errors_fall(rows, "moreau", "error_extrema", (1e-3, 1e-4, 1e-5), 2)
 
     def test_steady_motion_is_found_again_in_50_digits(self):
         rows = self.rows_of(DAMPER + "loose_v0 = 0.3\n[time]\nwindow = 4\n")

@@ -54,7 +54,6 @@ class Refusals(CommandLine):
                 asked = f'[observe]\nsensitivity = "{key}"\n'
                 if own != "stiffness = 0" or key == "stop_amplitude":
                     self.assert_told(f"{SCENE}{own}\n{asked}", ("loose_mass", f"'{key}'"))
-            self.assert_told(f'{SCENE}{own}\n[integrator]\nmethod = "moreau"\n', ("moreau", "exact"))
             if "friction" in own:
                 branch = f'{SCENE}{own}\n[branch]\nalong = "nu"\nrange = [1, 2]\n'
                 self.assert_told(branch, ("loose_mass", "[branch]"), "branch")

@@ -39,9 +39,7 @@ PointText text_of(const Arguments& arguments) {
 /// Measures and prints all points, or fewer if it is interrupted.
 std::vector<accuracy::PointAccuracy> measure_points(const sweep::Sweep& sweep, lanes::InstructionSet arch,
                                                     PointText text_of, ProgressKind shown) {
-  std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.problem.time.mode, arch);
-  if (sweep.problem.observe.wall_log)  // Moreau's method knows no loose mass beside stops or friction
-    std::erase_if(trials, [](const auto& trial) { return trial.method == accuracy::TestedMethod::moreau; });
+  const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.problem.time.mode, arch);
   Progress progress(shown, "runs");
   accuracy::AccuracyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
   std::vector<accuracy::PointAccuracy> points;
