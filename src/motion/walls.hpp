@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <utility>
-#include <variant>
 
 #include "motion/arc_constants.hpp"
 #include "motion/linear_maps.hpp"
@@ -77,33 +75,6 @@ template <class Number, Effects E, class Other>
   const double h = static_cast<double>(free.h / both), k = static_cast<double>(free.k / both);
   return h * h < k;
 }
-
-/// The oscillator of both masses as one, whose damping is of a class of its own.
-template <class Number>
-class CarryingOscillator {
- public:
-  template <Effects E, class Other>
-  CarryingOscillator(const ArcConstants<Number, E>& free, const BasicLooseMass<Other>& loose) : of_(of(free, loose)) {}
-
-  /// Calls `function(constants)` with those of the two masses as one.
-  template <class Function>
-  decltype(auto) with_constants(Function&& function) const {
-    return std::visit(std::forward<Function>(function), of_);
-  }
-
- private:
-  template <Damping damping, Forcing forcing>
-  using Of = ArcConstants<Number, Effects{.damping = damping, .forcing = forcing, .stiffness = true}>;
-  using Any = std::variant<Of<Damping::light, Forcing::secular>, Of<Damping::heavy, Forcing::regular>>;
-
-  template <Effects E, class Other>
-  [[nodiscard]] static Any of(const ArcConstants<Number, E>& free, const BasicLooseMass<Other>& loose) {
-    if (rotates_carrying(free, loose)) return carrying<Of<Damping::light, Forcing::secular>>(free, loose);
-    return carrying<Of<Damping::heavy, Forcing::regular>>(free, loose);
-  }
-
-  Any of_;
-};
 
 /// The housing of a loose mass, whose walls stop it, and on which it may rub.
 template <class Number>

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "motion/soft_stop.hpp"
@@ -17,6 +18,7 @@
 #include "steady/contact_at_section.hpp"
 #include "steady/doubt.hpp"
 #include "steady/observed_time.hpp"
+#include "steady/slipping.hpp"
 #include "steady/standing.hpp"
 #include "steady/stroboscopic_map.hpp"
 #include "steady/time_settings.hpp"
@@ -47,9 +49,8 @@ class ForcedSearch {
         begins_before_(scene.oscillator.forcing),
         beyond_contact_(scene, integrator.period()),
         watch_(integrator.stops()),
-        map_(integrator, time.tolerance, pace_of(scene.oscillator)) {
-    near_enough_.fill(nearest_first);
-  }
+        map_(integrator, time.tolerance, pace_of(scene.oscillator)),
+        slipping_(map_, integrator, scene, time.tolerance) {}
 
   /// Runs from `state`, at a section, until the steady state is known.
   [[nodiscard]] ObservedTime run(motion::State<double> state) {
@@ -66,6 +67,9 @@ class ForcedSearch {
     if (auto found = closed_form(state)) return found;
     if constexpr (E.soft)
       if (auto found = pressed(state)) return found;
+    if constexpr (E.friction)
+      if (section_ >= settles_soon)
+        if (auto orbit = slipping_.from(state)) return observed(*orbit);
     if constexpr (E.stiffness || E.forcing == Forcing::secular)
       if (escapes(scene_, state.x, state.v, integrator_.phase(motion::State<double>{})))
         return escape(state, simulated());
@@ -117,8 +121,8 @@ class ForcedSearch {
   }
 
  private:
-  static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt is made
   static constexpr std::int64_t long_settling = 128;
+  static constexpr std::int64_t settles_soon = 8;  ///< much motion under friction, before other ways pay
   static constexpr std::size_t kept = 2 * RepeatFinder::longest;
   static constexpr std::int64_t first_sample = 256, between_samples = 8;
   static constexpr std::int64_t looked_at = 3 * RepeatFinder::longest;  ///< sections in a row that an attempt looks at
@@ -240,7 +244,7 @@ class ForcedSearch {
     if (!pays() || (approach_ && next_ < approach_->periods)) return std::nullopt;
     const std::size_t n = contracting();
     if (n == 0 || !affordable(n)) return std::nullopt;
-    near_enough_[n] = repeat_.distance_over(n) / 4;  // for the next attempt
+    contracting_.attempt(n, repeat_.distance_over(n));
     approach_ = map_.follow(state, n), next_ = 0;
     const auto orbit = approach_ ? map_.attractor_of(*approach_) : std::nullopt;
     if (in_lanes_) approach_.reset();
@@ -272,19 +276,10 @@ class ForcedSearch {
     return left < std::min(400.0, static_cast<double>(time_.max_periods - section_));
   }
 
-  /// The least n for which states n apart come closer, over the same stops in the same order; 0 for none.
   [[nodiscard]] std::size_t contracting() const {
-    for (std::size_t n = repeat_.next_within(nearest_first, 1); n > 0; n = repeat_.next_within(nearest_first, n + 1)) {
-      const double now = repeat_.distance_over(n);
-      if (!(now <= near_enough_[n] && now > 8 * epsilon<double>() && now < repeat_.distance_over(n, n))) continue;
-      if ((in_lanes_ || is_rough_) && repeats_soon(n)) continue;
-      bool same = true, meets = false;
-      for (std::size_t i = 1; same && i <= n && n + i < kept; ++i)
-        same = passages_[index(i)].itinerary == passages_[index(n + i)].itinerary,
-        meets = meets || passages_[index(i)].itinerary != 0;
-      if (same && meets) return n;
-    }
-    return 0;
+    const auto itinerary = [this](std::size_t ago) { return passages_[index(ago)].itinerary; };
+    return contracting_.periods(repeat_, itinerary,
+                                [this](std::size_t n) { return (in_lanes_ || is_rough_) && repeats_soon(n); });
   }
 
   [[nodiscard]] ObservedTime observed(const MapOrbit& orbit) const {
@@ -320,6 +315,7 @@ class ForcedSearch {
   double closest_ = 0.0;         ///< the least distance so far of states so many sections apart
   std::int64_t closest_at_ = 0;  ///< the section at which it was
   RepeatFinder repeat_;
+  Contracting contracting_{};
   BeginsBefore begins_before_;
   BeyondContact beyond_contact_;
   bool is_cut_ = false;                   ///< lanes: a section lies beside an impact
@@ -328,9 +324,9 @@ class ForcedSearch {
   std::optional<MapOrbit> approach_;      ///< the periods that the last attempt followed
   PassageObserver watch_;
   StroboscopicMap<E> map_;
+  [[no_unique_address]] std::conditional_t<E.friction, Slipping<E>, NoSlipping> slipping_;
   /// [section modulo its size]; not in lanes, nor if the first section tells all.
   std::optional<std::array<motion::State<double>, RepeatFinder::longest>> recent_{};
-  std::array<double, RepeatFinder::longest + 1> near_enough_;  ///< [n]: distance below which an attempt is made
 };
 
 }  // namespace clatter::steady

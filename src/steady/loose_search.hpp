@@ -66,9 +66,7 @@ class HousingSearch {
         beyond_contact_(scene, integrator.period()),
         repeat_(time.tolerance),
         watch_(passage_observer(integrator, scene)),
-        map_(integrator, scene, time.tolerance) {
-    near_enough_.fill(nearest_first);
-  }
+        map_(integrator, scene, time.tolerance) {}
 
   /// Runs from `state`, at a section, until the steady state is known.
   [[nodiscard]] ObservedTime run(motion::State<double> state) {
@@ -91,7 +89,6 @@ class HousingSearch {
   }
 
  private:
-  static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt is made
   static constexpr std::int64_t long_settling = 128;
   static constexpr std::size_t longest = BasicRepeatFinder<3>::longest;
 
@@ -119,26 +116,15 @@ class HousingSearch {
   [[nodiscard]] std::optional<ObservedTime> attractor(const motion::State<double>& state) {
     const bool pays = section_ <= long_settling || section_ % 8 == 0;
     if (!pays || state.loose.pressed) return std::nullopt;
-    const std::size_t n = contracting();
+    const auto contacts_of = [this](std::size_t ago) { return itinerary(ago); };
+    const std::size_t n = contracting_.periods(repeat_, contacts_of, [](std::size_t) { return false; });
     const auto spent = static_cast<std::int64_t>(map_.simulated() + n * HousingMap<I>::most_turns);
     if (n == 0 || spent > std::min<std::int64_t>(64, time_.max_periods) + section_ / 4) return std::nullopt;
-    near_enough_[n] = repeat_.distance_over(n) / 4;  // for the next attempt
+    contracting_.attempt(n, repeat_.distance_over(n));
     std::vector<std::uint64_t> contacts;
     for (std::size_t ago = n; ago > 0; --ago) contacts.push_back(itinerary(ago));
     auto orbit = map_.attractor_of(state, contacts, watch_.passage());
     return orbit ? std::optional(observed(*orbit)) : std::nullopt;
-  }
-  /// The least n for which states n apart come closer, over the same contacts in the same order; 0 for none.
-  [[nodiscard]] std::size_t contracting() const {
-    for (std::size_t n = repeat_.next_within(nearest_first, 1); n > 0; n = repeat_.next_within(nearest_first, n + 1)) {
-      const double now = repeat_.distance_over(n);
-      if (!(now <= near_enough_[n] && now > 8 * epsilon<double>() && now < repeat_.distance_over(n, n))) continue;
-      bool same = true, meets = false;
-      for (std::size_t ago = 1; same && ago <= n; ++ago)
-        same = itinerary(ago) == itinerary(n + ago), meets = meets || itinerary(ago) != 0;
-      if (same && meets) return n;
-    }
-    return 0;
   }
   /// Of the forcing period that began so many sections ago.
   [[nodiscard]] std::uint64_t itinerary(std::size_t ago) const {
@@ -163,11 +149,11 @@ class HousingSearch {
   std::int64_t from_, section_ = 0;
   BeyondContact beyond_contact_;
   BasicRepeatFinder<3> repeat_;
+  Contracting contracting_{};
   HousingObserver watch_;
   HousingMap<I> map_;
   std::array<motion::State<double>, longest> recent_{};   ///< [section modulo its size]
   std::array<std::uint64_t, 2 * longest> itineraries_{};  ///< [section modulo its size], of the period from it
-  std::array<double, longest + 1> near_enough_;           ///< [n]: distance below which an attempt is made
 };
 
 }  // namespace clatter::steady

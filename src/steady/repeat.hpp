@@ -276,4 +276,34 @@ using RepeatFinder = BasicRepeatFinder<1>;
   return max_periods - static_cast<std::int64_t>(3 * RepeatFinder::longest) - static_cast<std::int64_t>(slow);
 }
 
+/// Tells when to look for the periodic motion that states at sections contract to.
+class Contracting {
+ public:
+  Contracting() { near_enough_.fill(nearest_first); }
+
+  /// The least n for which states n apart come closer than at the last attempt, over the same contacts in the same
+  /// order, `itinerary(ago)` of the period that began so many sections ago; 0 for none. `waits(n)`: an attempt doesn't
+  /// pay.
+  template <std::size_t others, class Itinerary, class Waits>
+  [[nodiscard]] std::size_t periods(const BasicRepeatFinder<others>& repeat, const Itinerary& itinerary,
+                                    const Waits& waits) const {
+    for (std::size_t n = repeat.next_within(nearest_first, 1); n > 0; n = repeat.next_within(nearest_first, n + 1)) {
+      const double now = repeat.distance_over(n);
+      if (!(now <= near_enough_[n] && now > 8 * epsilon<double>() && now < repeat.distance_over(n, n))) continue;
+      if (waits(n)) continue;
+      bool same = true, meets = false;
+      for (std::size_t ago = 1; same && ago <= n; ++ago)
+        same = itinerary(ago) == itinerary(n + ago), meets = meets || itinerary(ago) != 0;
+      if (same && meets) return n;
+    }
+    return 0;
+  }
+  /// An attempt is made at this distance of states n apart; the next one at a quarter of it.
+  void attempt(std::size_t n, double distance) { near_enough_[n] = distance / 4; }
+
+ private:
+  static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt is made
+  std::array<double, RepeatFinder::longest + 1> near_enough_;  ///< [n]: distance below which an attempt is made
+};
+
 }  // namespace clatter::steady

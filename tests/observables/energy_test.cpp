@@ -57,6 +57,22 @@ TEST(Energy, of_the_symmetric_motion_is_that_of_its_closed_form) {
   EXPECT_LE(std::abs(r.energy_residual), 1e-13 * largest_term(r));
 }
 
+/// The fast mode of heavy damping is gone at once; that takes the logarithm of its rate, not its rate.
+TEST(Energy, of_heavy_damping_closes_at_a_cost_that_hardly_grows_with_it) {
+  for (const bool is_loose : {false, true})
+    for (const double h : {3.0, 30.0, 1e3, 1e5, 1e7}) {
+      point::Problem scene = scene_of({h, 1.0, 1.1, 0.2}, {-0.8, 0.5, 0.6, 0.6});
+      scene.start.velocity = h, scene.start.phase = 1;  // it gets as far as 1/2 before it is slow
+      scene.observe.wall_energy = is_loose;
+      if (is_loose) scene.loose = {.ratio = 0.2, .lower = -0.3, .upper = 0.3, .place = 0.1, .velocity = 2.0};
+      scene.time.mode = steady::Mode::transient, scene.time.duration = 30;
+      const point::PointResult r = result_of(scene);
+      EXPECT_LE(std::abs(r.energy_residual), 1e-13 * std::max(largest_term(r), h * h / 2)) << h;
+      EXPECT_GT(r.loss_damping, 0.4 * h * h) << h;
+      EXPECT_LT(r.evaluations, 20000) << h;
+    }
+}
+
 TEST(Energy, is_kept_by_conservative_motion) {
   point::Problem scene = scene_of({0.0, 0.0, 1.0, 0.0}, {-0.75, 0.75, 1, 1});
   scene.start.velocity = -1.0;

@@ -13,9 +13,10 @@ template <class A>
 void add_contact(const A& arc, const motion::SoftStop<Along>& stop, const Along& begin, const Along& length,
                  SoftContacts& sum) {
   const auto& constants = arc.constants();
-  const double turns = static_cast<double>(length * constants.rate);
+  const auto [fastest, lasting] = observables::pace_of(constants);
+  const auto whole = static_cast<double>(length);
   SoftContacts part;
-  observables::over_panels<20>(1.0, static_cast<std::size_t>(std::ceil(turns / 2)), [&](double share, double weight) {
+  observables::over_panels<20>(1.0, {fastest * whole, lasting * whole}, 2, [&](double share, double weight) {
     const Along time = share * length, phase = begin + constants.nu * time;
     const motion::Motion<Along> m = arc.at(time);
     const Along force = weight * stop.force(m.offset, m.v);

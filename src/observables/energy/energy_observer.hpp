@@ -131,10 +131,9 @@ class Energy::Observer {
     const auto& constants = arc.constants();
     const double mass = 1 + constants.carried;
     if (stands_still(arc, length)) return press(arc, length);
-    const auto panels = static_cast<std::size_t>(std::ceil(length * constants.rate / 2));
     double work = 0, squares = 0, impulse = 0;
     const auto* stop = soft_stop_of(arc);
-    over_panels<20>(length, panels, [&](double s, double weight) {
+    evaluations_ += over_panels<20>(length, pace_of(constants), 2, [&](double s, double weight) {
       const motion::Motion<double> m = arc.at(s);
       work += weight * m.v * m.sine, squares += weight * m.v * m.v;
       if (stop != nullptr) impulse += weight * stop->force(stop->into(m.offset), stop->into(m.v));
@@ -154,7 +153,6 @@ class Energy::Observer {
       loss_damping_ += mass * 2 * constants.h * squares;
       if (is_soft_) lose_stored({arc.start().x, arc.anchor(), arc.start().offset}, *last_);
     }
-    evaluations_ += 20 * static_cast<double>(panels);
   }
 
   /// Whether a mass at its equilibrium stays there. An arc of it may last for a period of a very weak spring, of which

@@ -31,10 +31,9 @@ template <class A>
     const double gained = main.at(to).v - main.at(from).v;
     return sign * loose.ratio * (loose.load * (to - from) - gained) - loose.friction_static * (to - from);
   };
-  const double pieces = std::ceil(8 * length * main.constants().rate) + 1, piece = length / pieces;
   double sum = 0.0;
-  for (double i = 0; i < pieces; ++i) {
-    double from = i * piece, to = i + 1 < pieces ? from + piece : length;
+  for_each_panel(length, pace_of(main.constants()), 0.125, [&](double middle_of_piece, double half) {
+    double from = middle_of_piece - half, to = middle_of_piece + half;
     const bool begins = force(from) > 0, ends = force(to) > 0;
     double low = from, high = to;
     for (int halves = 0; begins != ends && halves < 60; ++halves) {
@@ -44,7 +43,7 @@ template <class A>
     if (begins && !ends) to = low;
     if (!begins && ends) from = high;
     if (begins || ends) sum += over(from, to);
-  }
+  });
   return sum;
 }
 
@@ -92,7 +91,7 @@ class LooseEnergy {
   void see_main(const A& arc, double begin, double length) {
     see_begin(arc.start().x, arc.start().v);
     const bool is_carrying = arc.constants().carried != 0;
-    over(arc.constants().rate, length, [&](double s, double weight) {
+    over(pace_of(arc.constants()), length, [&](double s, double weight) {
       const motion::Motion<double> m = arc.at(s);
       const Frame b = frame_at(m.sine, m.cosine, begin + s);
       const double v = m.v - b.v;
@@ -106,7 +105,8 @@ class LooseEnergy {
   template <class A, class Loose>
   void see_loose(const A& main, const Loose& loose, double begin, double length) {
     see_begin_of_loose(loose.velocity(0.0));
-    over(std::max(frame_.frequency(), 1.0), length, [&](double s, double weight) {
+    const double frequency = std::max(frame_.frequency(), 1.0);
+    over(Pace{frequency, frequency}, length, [&](double s, double weight) {
       const auto [sine, cosine] = main.phase_after(s);
       const Frame b = frame_at(sine, cosine, begin + s);
       work_ += weight * loose_.ratio * (loose_.load - b.a) * (loose.velocity(s) - b.v);
@@ -158,10 +158,8 @@ class LooseEnergy {
   }
   /// Gauss-Legendre quadrature by panels in which nothing turns by more than a few radians.
   template <class Add>
-  void over(double rate, double length, const Add& add) {
-    const auto panels = static_cast<std::size_t>(std::ceil(length * rate / 2));
-    over_panels<20>(length, panels, add);
-    evaluations_ += 20 * static_cast<double>(panels);
+  void over(const Pace& pace, double length, const Add& add) {
+    evaluations_ += over_panels<20>(length, pace, 2, add);
   }
 
   Oscillator oscillator_;

@@ -66,16 +66,13 @@ class ExactHarmonics {
   template <Effects E>
   void arc(const motion::RelativeArc<double, E>& arc, double begin, double length) {
     if (begins(begin)) first_x_ = arc.start().x;
-    const double panels = std::max(1.0, std::ceil(length * arc.constants().rate / 4)), half = length / panels / 2;
-    evaluations_ += 20 * panels;
-    for (double panel = 0; panel < panels; ++panel) {
-      const double middle = (2 * panel + 1) * half;
-      Panel here(middle, half, [&](double s) { return arc.at(s).x; });
-      for (std::size_t k = 0; k < x_.size(); ++k) {
-        const double w = base_ * static_cast<double>(k);
-        x_[k] += here.integral(w) * turn(w * (begin + middle));
-      }
-    }
+    evaluations_ += 20 * for_each_panel(length, pace_of(arc.constants()), 4, [&](double middle, double half) {
+                      Panel here(middle, half, [&](double s) { return arc.at(s).x; });
+                      for (std::size_t k = 0; k < x_.size(); ++k) {
+                        const double w = base_ * static_cast<double>(k);
+                        x_[k] += here.integral(w) * turn(w * (begin + middle));
+                      }
+                    });
   }
   /// Beside the flights, times at rest; a mass on which a loose one presses moves along an arc.
   void event(const motion::Event& event) {
@@ -177,7 +174,7 @@ class ExactHarmonics {
   void short_arc(const A& arc, double begin, double length) {
     std::array<double, 10> times, weighted;
     std::size_t points = 0;
-    over_panels<10>(length, 1, [&](double s, double weight) {
+    over_panel<10>(length / 2, length / 2, [&](double s, double weight) {
       times[points] = begin + s, weighted[points++] = weight * arc.displacement(s);
     });
     evaluations_ += static_cast<double>(points * x_.size());  // a term counts as one
@@ -191,10 +188,8 @@ class ExactHarmonics {
   /// Integral of x e^{-i w tau} over an arc by panels in which nothing turns by more than a few radians.
   template <unsigned points, class A>
   [[nodiscard]] Complex quadrature(const A& arc, double w, double begin, double length) {
-    const auto panels = static_cast<std::size_t>(std::ceil(length * (arc.constants().rate + w) / 4));
     Complex sum = 0;
-    evaluations_ += static_cast<double>(panels) * points;
-    over_panels<points>(length, panels, [&](double s, double weight) {
+    evaluations_ += over_panels<points>(length, pace_of(arc.constants()).with(w), 4, [&](double s, double weight) {
       sum += weight * displacement_of(arc, s) * turn(w * (begin + s));
     });
     return sum;

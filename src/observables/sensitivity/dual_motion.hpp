@@ -68,9 +68,8 @@ template <class Along>
 template <class Along, Effects E>
 [[nodiscard]] Along squares_of_velocity(const motion::Arc<Along, E>& arc, double length,
                                         const motion::Motion<Along>& end, const Along& late) {
-  const auto panels = static_cast<std::size_t>(std::ceil(length * arc.constants().rate.value / 2));
   Along squares = end.v * end.v * late;
-  over_panels<20>(length, panels, [&](double s, double weight) {
+  over_panels<20>(length, pace_of(arc.constants()), 2, [&](double s, double weight) {
     const Along v = arc.at(Along(s)).v;
     squares += weight * v * v;
   });
