@@ -32,8 +32,8 @@ Along stored(const SceneNumbers<Along>& p, const motion::SoftStop<Along>& stop, 
   return stop.stiffness * depth * depth / 2;
 }
 
-/// Contacts on arcs of a main mass: `with_arc(i, end, function)` calls `function(arc)` with that of the flight after
-/// event i, which lasts until the phase `end`.
+/// Contacts on arcs of a main mass: `with_arc(i, end, function)` calls `function(arc, begin)` with that of the flight
+/// after event i, from the phase `begin` to `end`.
 template <class WithArc>
 void add_contacts(const Moving& moving, const WithArc& with_arc, SoftContacts& sum) {
   const std::size_t count = moving.events.size();
@@ -42,8 +42,8 @@ void add_contacts(const Moving& moving, const WithArc& with_arc, SoftContacts& s
     if (from.pressed == Side::none) continue;
     const motion::SoftStop<Along> stop = moving.p.soft_stop(from.pressed);
     const Along end = i + 1 < count ? to.phase : to.phase + moving.period * moving.p.oscillator.frequency;
-    with_arc(i, end, [&](const auto& arc) {
-      add_contact(arc, stop, from.phase, (end - from.phase) / moving.p.oscillator.frequency, sum);
+    with_arc(i, end, [&](const auto& arc, const Along& begin) {
+      add_contact(arc, stop, begin, (end - begin) / moving.p.oscillator.frequency, sum);
     });
     // a stop that the mass outruns relaxes as far as it is touched again
     const bool leaves =
@@ -65,7 +65,9 @@ SoftContacts contacts_of_one(const Moving& moving) {
     });
   const auto with_arc = [&](std::size_t i, const Along& end, const auto& function) {
     const MovingEvent &from = moving.events[i], &to = moving.events[(i + 1) % moving.events.size()];
-    flights.with_arc({from.side, from.phase, from.coordinate, to.side, end, from.kind, to.kind}, function);
+    const Flight<Along> flight{from.side, from.phase, from.coordinate, to.side,     end,
+                               from.kind, to.kind,    false,           from.pressed};
+    flights.with_arc(flight, [&](const auto& arc) { function(arc, flights.start(flight)); });
   };
   add_contacts(moving, with_arc, sum);
   return sum;
@@ -79,7 +81,7 @@ SoftContacts contacts_of_both(const Moving& moving) {
     const MovingEvent &from = moving.events[i], &to = moving.events[(i + 1) % moving.events.size()];
     flights.with_arc({from.kind, to.kind, from.side, to.side, from.phase, from.coordinate, from.other_place,
                       from.other_before, end, from.pressed},
-                     [&](const auto& arc) { function(arc.main()); });
+                     [&](const auto& arc) { function(arc.main(), from.phase); });
   };
   add_contacts(moving, with_arc, sum);
   return sum;

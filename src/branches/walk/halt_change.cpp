@@ -28,12 +28,11 @@ double of_flights(const FollowedScene& scene, Function&& function) {
 }
 /// How long friction holds a mass where it halts against a push to its side, rad.
 double held(const FollowedScene& scene, const OrbitEvent& halt) {
-  return of_flights(scene, [&](const auto& flights) { return flights.hold(halt.place, halt.phase, halt.side); });
+  return of_flights(scene, [&](const auto& flights) { return flights.hold(standing_at(halt), halt.side); });
 }
 /// Whether friction holds a mass against a push to a side at the instant at which it halts.
 bool holds(const FollowedScene& scene, const OrbitEvent& halt, Side side) {
-  return of_flights(scene, [&](const auto& flights) { return flights.left_to_level(halt.place, halt.phase, side); }) >=
-         0;
+  return of_flights(scene, [&](const auto& flights) { return flights.left_to_level(standing_at(halt), side); }) >= 0;
 }
 
 /// Whether the force that pushes a halting mass to its side rises.
@@ -67,7 +66,7 @@ Orbit merged(const Orbit& orbit, std::size_t event = 0) {
 /// The length, rad, of the slip from an event to a stick; infinite if it can't vanish. One that a push at a static
 /// level above the kinetic one begins can't, however short it is.
 double length_of_slip(const FollowedScene& scene, const OrbitEvent& from, const OrbitEvent& to) {
-  if (to.kind != Event::Kind::stick || (halts(from.kind) && motion_jumps(scene)))
+  if (to.kind != Event::Kind::stick || is_of_soft_stop(from.kind) || (halts(from.kind) && motion_jumps(scene)))
     return std::numeric_limits<double>::infinity();
   return to.phase - from.phase - (from.kind == Event::Kind::stick ? held(scene, from) : 0.0);
 }
@@ -165,8 +164,7 @@ Orbit first_of_odd(const Orbit& orbit, double tolerance) {
 /// Whether motion may be its own mirror image: between stops that are each other's, or where it doesn't meet them.
 bool may_be_mirrored(const FollowedScene& scene, const Orbit& orbit, const Condition& condition) {
   if (is_symmetric(scene)) return true;
-  return condition.kind != Kind::on_stop && scene.oscillator.stiffness != 0 &&
-         std::ranges::all_of(orbit.events, halts, &OrbitEvent::kind);
+  return condition.kind != Kind::on_stop && scene.oscillator.stiffness != 0 && orbit.is_of_free_halts();
 }
 
 /// A change that comes to the motion in each of its repetitions, or also in its mirror image, as that of the first one:
@@ -190,7 +188,8 @@ void join(ExactGraze& exact, const HaltChange& change) {
   const OrbitEvent& halt = exact.orbit.events[exact.event];
   Orbit once;
   if (exact.orbit.heading_before(exact.event) != halt.side) {
-    once = formed(exact.scene, exact.orbit, exact.event, HaltForm::stick).half_if_same(same, symmetric);
+    const HaltForm form = change.condition.kind == Kind::on_stop ? *change.before : HaltForm::stick;
+    once = formed(exact.scene, exact.orbit, exact.event, form).half_if_same(same, symmetric);
   } else {
     const Orbit without = formed(exact.scene, exact.orbit, exact.event, HaltForm::none);
     const auto later = std::ranges::upper_bound(without.events, halt.phase, {}, &OrbitEvent::phase);
@@ -275,7 +274,8 @@ std::optional<HaltChange> of_violation(const OrbitEquations& equations, const Cu
   const bool jumps = motion_jumps(scene);
   switch (found.kind) {
     case Violation::Kind::passes_through:
-      return orbit.size() > 0 ? reaching(orbit, (i + 1) % orbit.size()) : std::nullopt;
+      if (!is_impact(found.turning.kind) || is_soft(scene.stops, found.turning.side)) return std::nullopt;
+      return reaching(orbit, (i + 1) % orbit.size());
     case Violation::Kind::halts:
       return grazing(orbit, scene, found, jumps);
     case Violation::Kind::runs_on:
@@ -302,11 +302,46 @@ void add_releases_at_crest(const OrbitEquations& equations, const CurvePoint& at
     const OrbitEvent& stick = orbit.events[i];
     if (stick.kind != Event::Kind::stick) continue;
     const double before = of_flights(scene, [&](const auto& flights) {
-      return flights.hold_to_crest(stick.phase, stick.side) - flights.hold(stick.place, stick.phase, stick.side);
+      return flights.hold_to_crest(stick.phase, stick.side) - flights.hold(standing_at(stick), stick.side);
     });
     if (before < near_crest)
       changes.push_back({SpecialKind::release_tangency, orbit, level(Kind::tangency, i, stick.side), HaltForm::stick});
   }
+}
+
+/// A halt comes to the position of a soft stop, from within or from outside. There the touch and the separation between
+/// the two, and a renewal just before it, are none, and it tells by itself whether the mass is in contact after it.
+HaltChange passing(const FollowedScene& scene, const Orbit& all, std::size_t number, Side stop) {
+  Orbit orbit = all.from_event(number);
+  OrbitEvent& halt = orbit.events[0];
+  const bool was_within = halt.held_by() != Side::none, entered = orbit.heading_before(0) == stop,
+             enters = halt.side == stop, damped = numbers_of<double>(scene).soft_stop(stop).damping != 0;
+  halt.contact = enters ? stop : Side::none;
+  const OrbitEvent after = orbit.event(1), before = orbit.event(orbit.size() - 1);
+  const Side side_before = orbit.mirrored ? opposite(before.side) : before.side;
+  const Event::Kind none = entered ? Event::Kind::touch : damped ? Event::Kind::renewal : Event::Kind::separation;
+  if (orbit.size() > 1 && before.kind == none && side_before == stop) orbit.events.pop_back();
+  if (orbit.size() > 1 && after.kind == (enters ? Event::Kind::touch : Event::Kind::separation) && after.side == stop)
+    orbit = orbit.without(1);
+  const HaltForm form = orbit.events[0].kind == Event::Kind::stick ? HaltForm::stick : HaltForm::reversal;
+  return {SpecialKind::graze,
+          orbit,
+          level(Kind::on_stop, 0, stop),
+          form,
+          form,
+          was_within ? Opening::Kind::outside : Opening::Kind::within};
+}
+/// The halts beside violations that may come to the position of a soft stop.
+void add_passing(const FollowedScene& scene, const Orbit& orbit, const std::vector<Violation>& violations,
+                 std::vector<HaltChange>& changes) {
+  std::vector<bool> is_beside(orbit.size());
+  for (const Violation& violation : violations)
+    for (std::size_t ahead = 0; ahead < 4; ++ahead)  // from the event before it on
+      is_beside[(violation.event + orbit.size() - 1 % orbit.size() + ahead) % orbit.size()] = true;
+  for (std::size_t i = 0; i < orbit.size(); ++i)
+    for (const Side stop : {Side::lower, Side::upper})
+      if (is_beside[i] && halts(orbit.events[i].kind) && is_soft(scene.stops, stop))
+        changes.push_back(passing(scene, orbit, i, stop));
 }
 
 }  // namespace
@@ -320,8 +355,7 @@ bool slips_on_from_stop(const FollowedScene& scene, const Orbit& orbit, std::siz
   const OrbitEvent& halt = orbit.events[stick];
   const Side away = opposite(orbit.heading_before(stick));
   return sign_of(away) *
-             of_flights(scene,
-                        [&](const auto& flights) { return flights.acceleration(halt.place, halt.phase, away); }) >
+             of_flights(scene, [&](const auto& flights) { return flights.acceleration(standing_at(halt), away); }) >
          0;
 }
 
@@ -338,6 +372,7 @@ std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narr
   for (const Violation& violation : violations)
     if (const auto change = of_violation(equations, found.beyond, violation)) changes.push_back(*change);
   add_releases_at_crest(equations, found.last_good, changes);
+  add_passing(scene, orbit, violations, changes);
   return changes;
 }
 
