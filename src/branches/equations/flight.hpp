@@ -220,7 +220,7 @@ class Flights {
   /// Force on a mass that halts.
   [[nodiscard]] Number force_on(const Standing<Number>& at) const {
     using std::sin;
-    return constants_.force(sin(at.phase + lead_)) + p_.standing_force(Number(p_.middle() + at.place), at.held_by);
+    return constants_.f * sin(at.phase + lead_) + p_.standing_force(Number(p_.middle() + at.place), at.held_by);
   }
   /// Its acceleration as it slips towards a side.
   [[nodiscard]] Number acceleration(const Standing<Number>& at, Side side) const {

@@ -18,7 +18,7 @@ void add_contact(const A& arc, const motion::SoftStop<Along>& stop, const Along&
   observables::over_panels<20>(1.0, static_cast<std::size_t>(std::ceil(turns / 2)), [&](double share, double weight) {
     const Along time = share * length, phase = begin + constants.nu * time;
     const motion::Motion<Along> m = arc.at(time);
-    const Along force = weight * stop.force(m.offset, m.v);
+    const Along force = weight * stop.force(Along(arc.anchor() - stop.position) + m.offset, m.v);
     part.loss += weight * m.v * m.v, part.re -= force * cos(phase), part.im += force * sin(phase);
   });
   sum.loss += 2 * stop.damping * length * part.loss;

@@ -7,6 +7,7 @@
 #include "branches/equations/flight.hpp"
 #include "branches/equations/newton.hpp"
 #include "branches/walk/ceasing.hpp"
+#include "branches/walk/halt_at_soft_stop.hpp"
 #include "branches/walk/slip_violation.hpp"
 
 namespace clatter::branches {
@@ -21,10 +22,7 @@ Condition level(Kind kind, std::size_t halt, Side side) {
 /// Calls `function(flights)` with the flights of a scene.
 template <class Function>
 double of_flights(const FollowedScene& scene, Function&& function) {
-  return with_arcs(scene, [&]<Effects E>() {
-    const Flights<double, E> flights{numbers_of<double>(scene)};
-    return function(flights);
-  });
+  return with_arcs(scene, [&]<Effects E>() { return function(Flights<double, E>{numbers_of<double>(scene)}); });
 }
 /// How long friction holds a mass where it halts against a push to its side, rad.
 double held(const FollowedScene& scene, const OrbitEvent& halt) {
@@ -309,41 +307,6 @@ void add_releases_at_crest(const OrbitEquations& equations, const CurvePoint& at
   }
 }
 
-/// A halt comes to the position of a soft stop, from within or from outside. There the touch and the separation between
-/// the two, and a renewal just before it, are none, and it tells by itself whether the mass is in contact after it.
-HaltChange passing(const FollowedScene& scene, const Orbit& all, std::size_t number, Side stop) {
-  Orbit orbit = all.from_event(number);
-  OrbitEvent& halt = orbit.events[0];
-  const bool was_within = halt.held_by() != Side::none, entered = orbit.heading_before(0) == stop,
-             enters = halt.side == stop, damped = numbers_of<double>(scene).soft_stop(stop).damping != 0;
-  halt.contact = enters ? stop : Side::none;
-  const OrbitEvent after = orbit.event(1), before = orbit.event(orbit.size() - 1);
-  const Side side_before = orbit.mirrored ? opposite(before.side) : before.side;
-  const Event::Kind none = entered ? Event::Kind::touch : damped ? Event::Kind::renewal : Event::Kind::separation;
-  if (orbit.size() > 1 && before.kind == none && side_before == stop) orbit.events.pop_back();
-  if (orbit.size() > 1 && after.kind == (enters ? Event::Kind::touch : Event::Kind::separation) && after.side == stop)
-    orbit = orbit.without(1);
-  const HaltForm form = orbit.events[0].kind == Event::Kind::stick ? HaltForm::stick : HaltForm::reversal;
-  return {SpecialKind::graze,
-          orbit,
-          level(Kind::on_stop, 0, stop),
-          form,
-          form,
-          was_within ? Opening::Kind::outside : Opening::Kind::within};
-}
-/// The halts beside violations that may come to the position of a soft stop.
-void add_passing(const FollowedScene& scene, const Orbit& orbit, const std::vector<Violation>& violations,
-                 std::vector<HaltChange>& changes) {
-  std::vector<bool> is_beside(orbit.size());
-  for (const Violation& violation : violations)
-    for (std::size_t ahead = 0; ahead < 4; ++ahead)  // from the event before it on
-      is_beside[(violation.event + orbit.size() - 1 % orbit.size() + ahead) % orbit.size()] = true;
-  for (std::size_t i = 0; i < orbit.size(); ++i)
-    for (const Side stop : {Side::lower, Side::upper})
-      if (is_beside[i] && halts(orbit.events[i].kind) && is_soft(scene.stops, stop))
-        changes.push_back(passing(scene, orbit, i, stop));
-}
-
 }  // namespace
 
 bool jumps_to_stick(const FollowedScene& scene, const Orbit& orbit, std::size_t reversal) {
@@ -354,9 +317,7 @@ bool jumps_to_stick(const FollowedScene& scene, const Orbit& orbit, std::size_t 
 bool slips_on_from_stop(const FollowedScene& scene, const Orbit& orbit, std::size_t stick) {
   const OrbitEvent& halt = orbit.events[stick];
   const Side away = opposite(orbit.heading_before(stick));
-  return sign_of(away) *
-             of_flights(scene, [&](const auto& flights) { return flights.acceleration(standing_at(halt), away); }) >
-         0;
+  return sign_of(away) * acceleration_from(scene, halt, away) > 0;
 }
 
 std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found,

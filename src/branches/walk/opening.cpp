@@ -8,6 +8,7 @@
 #include "branches/equations/flight.hpp"
 #include "branches/equations/newton.hpp"
 #include "branches/walk/ceasing.hpp"
+#include "branches/walk/halt_at_soft_stop.hpp"
 #include "branches/walk/halves.hpp"
 #include "branches/walk/violation.hpp"
 
@@ -47,13 +48,6 @@ Orbit with_short(const FollowedScene& scene, const Orbit& orbit, std::size_t gra
   Orbit out = orbit;
   out.events[graze] = end;
   return out.with(begin, graze);
-}
-
-/// The acceleration of a mass that halts, as it slips towards a side.
-double acceleration_from(const FollowedScene& scene, const OrbitEvent& halt, Side side) {
-  return with_arcs(scene, [&]<Effects E>() {
-    return Flights<double, E>{numbers_of<double>(scene)}.acceleration(standing_at(halt), side);
-  });
 }
 
 /// An orbit with a stick on a stop as if the mass struck that first, and slipped back for `advance` of the phase.
@@ -109,74 +103,7 @@ Orbit with_release(const FollowedScene& scene, const Orbit& orbit, std::size_t s
   return out.with(held, stick);
 }
 
-/// The time, and the speed, with which a mass at rest has gone so far that way + relaxation * speed is a distance, by
-/// its acceleration and the jerk.
-struct Start {
-  double time, speed;
-};
-Start start_over(double distance, double relaxation, double a, double jerk) {
-  const auto root = [](double x) { return x > 0 ? x : std::numeric_limits<double>::infinity(); };
-  double time = std::min({root(std::sqrt(2 * distance / a)), root(std::cbrt(6 * distance / jerk)),
-                          root(distance / (relaxation * a)), root(std::sqrt(2 * distance / (relaxation * jerk)))});
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    const double speed = time * (a + time * jerk / 2), gains = a + time * jerk;
-    time -= (time * time * (a / 2 + time * jerk / 6) + relaxation * speed - distance) / (speed + relaxation * gains);
-  }
-  return {time, time * (a + time * jerk / 2)};
-}
-
-/// An orbit with a halt on the position of a soft stop as if it were a little beyond that, or before it, as far as the
-/// mass slips in `advance` of the phase before it. What there is between it and the position then are a touch or a
-/// separation where the mass passes that, and a renewal where the stop catches up with it.
-Orbit with_halt_beside(const FollowedScene& scene, const Orbit& orbit, std::size_t number, double advance,
-                       bool within) {
-  const SceneNumbers<double> p = numbers_of<double>(scene);
-  const double nu = p.oscillator.frequency;
-  OrbitEvent halt = orbit.events[number];
-  const Side side = soft_stop_at_halt(scene, halt), from = orbit.heading_before(number);
-  const double relaxation = p.soft_stop(side).relaxation(), sign = sign_of(side);
-  const double braked = std::abs(acceleration_from(scene, halt, from)), depth = braked * std::pow(advance / nu, 2) / 2;
-  halt.place += sign * (within ? depth : -depth), halt.contact = within ? side : Side::none;
-  Orbit out = orbit;
-  out.events[number] = halt;
-  // after it
-  const bool enters = halt.side == side;
-  if (enters != within) {
-    const OrbitEvent next = orbit.event(number + 1);
-    const Flight<double> flight{halt.side, halt.phase, halt.place, side,          next.phase,
-                                halt.kind, next.kind,  false,      halt.held_by()};
-    const bool sticks = halt.kind == Event::Kind::stick;
-    const double begin = with_arcs(scene, [&]<Effects E>() { return Flights<double, E>{p}.start(flight); });
-    const double a =
-        sticks ? p.friction.static_level - p.friction.kinetic : std::abs(acceleration_from(scene, halt, halt.side));
-    const double jerk = sticks ? std::abs(p.force().amplitude * nu * std::cos(begin + p.force().lead)) : 0.0;
-    const Start start = start_over(depth, within ? relaxation : 0.0, a, jerk);
-    out = out.with({side, begin + nu * start.time, sign_of(halt.side) * start.speed,
-                    within ? Event::Kind::separation : Event::Kind::touch},
-                   number + 1);
-  }
-  // before it
-  const bool entered = from == side;
-  if (entered ? !within : within == (relaxation == 0)) return out;
-  double time = advance / nu;
-  if (!entered && within) {
-    const double least = relaxation * relaxation - 2 * depth / braked;
-    time = relaxation - std::sqrt(std::max(least, 0.0));
-  }
-  const Event::Kind kind = entered ? Event::Kind::touch : within ? Event::Kind::renewal : Event::Kind::separation;
-  return out.with({side, halt.phase - nu * time, sign_of(from) * braked * time, kind}, number);
-}
-
 }  // namespace
-
-Side soft_stop_at_halt(const FollowedScene& scene, const OrbitEvent& halt) {
-  const SceneNumbers<double> p = numbers_of<double>(scene);
-  const auto off = [&](Side side) {
-    return is_soft(scene.stops, side) ? std::abs(p.middle() + halt.place - p.position(side))
-                                      : std::numeric_limits<double>::infinity();
-  };
-  return off(Side::lower) < off(Side::upper) ? Side::lower : Side::upper;
-}
 
 Orbit with_opening(const FollowedScene& scene, const Orbit& orbit, const Opening& opening, double advance) {
   switch (opening.kind) {

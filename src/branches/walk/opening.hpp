@@ -25,9 +25,6 @@ struct Opening {
   [[nodiscard]] bool is_of_soft_stop() const { return kind == Kind::within || kind == Kind::outside; }
 };
 
-/// The soft stop on whose position a mass halts.
-[[nodiscard]] Side soft_stop_at_halt(const FollowedScene& scene, const OrbitEvent& halt);
-
 /// An orbit in which that has begun, as if its slip, or the contact or interruption, lasted for `advance` of the phase.
 [[nodiscard]] Orbit with_opening(const FollowedScene& scene, const Orbit& orbit, const Opening& opening,
                                  double advance);

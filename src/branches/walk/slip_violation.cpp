@@ -117,17 +117,18 @@ bool ceases(const Flights<double, E>& flights, const Orbit& orbit) {
 std::vector<Violation> slip_violations(const FollowedScene& scene, const Orbit& orbit,
                                        std::optional<std::size_t> grazing) {
   std::vector<Violation> found;
+  const SceneNumbers<double> p = numbers_of<double>(scene);
   const auto add = [&](const std::optional<Violation>& violation) {
-    if (violation) found.push_back(*violation);
+    if (violation) found.push_back(told_apart(p, orbit, *violation));
   };
   with_arcs(scene, [&]<Effects E>() {
-    const Flights<double, E> flights{numbers_of<double>(scene)};
+    const Flights<double, E> flights{p};
     if (ceases(flights, orbit)) found.push_back({Violation::Kind::ceases, 0, {}});
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const OrbitEvent& event = orbit.events[i];
       if (i == grazing) continue;
       if (!halts(event.kind) && !(sign_of(event.side) * (event.is_contact() ? event.before : -event.before) > 0))
-        found.push_back({Violation::Kind::pulls, i, {}});
+        add(Violation{Violation::Kind::pulls, i, {}});
       if (halts(event.kind)) add(at_halt(flights, orbit, i));
     }
     for (std::size_t i = 0; i < orbit.size(); ++i) add(in_flight(flights, orbit, i));
