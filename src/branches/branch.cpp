@@ -238,18 +238,19 @@ class Follower {
     const Touch touch = touch_of(equations, *between);
     if (resting().ends_in_rest(any_equations(), equations, touch, near(step), generation_)) return;
     std::optional<ExactGraze> exact = end ? std::optional(end->exact) : std::nullopt;
-    if (!exact && !touch.halts)
+    const bool rubs = has_friction(equations.scene_at(touch.beyond.at).friction);
+    if (!exact && !rubs)
       exact = exact_graze(any_equations(), equations.scene_at(touch.beyond.at), touch.graze(), 1e-3 * speed_unit_,
                           symmetric_, near(step), settings_.tolerance);
     if (exact && exact->joins) return end_on(*exact, equations.shape());
     BranchPoint last = record_.point(equations, touch.last_good);
     if (!exact && step > 1e-6 * settings_.largest_step) return this->walk(equations, touch.last_good, {}, step / 8);
-    if (!exact) return record_.add(last), record_.fail(last, touch.halts ? no_halt_change : no_graze);
+    if (!exact) return record_.add(last), record_.fail(last, rubs ? no_halt_change : no_graze);
     const Orbit with = exact->orbit,
                 without = touch.halts ? halting_at_stop(exact->scene, with, touch.event) : with.without(touch.event);
     last.scene = exact->scene, last.orbit = touch.appears ? without : with;
     record_.add(last);
-    if (!touch.halts && resting().waits_beyond(last, with.events[touch.event].side, generation_))
+    if (!rubs && resting().waits_beyond(last, with.events[touch.event].side, generation_))
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;

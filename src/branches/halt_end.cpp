@@ -9,13 +9,19 @@
 namespace clatter::branches {
 namespace {
 
-/// The grazes that violations may be: an impact without speed, or a reversal on a stop.
-std::vector<Violation> grazes_of(const Orbit& orbit, const std::vector<Violation>& violations) {
+/// The grazes that violations may be: an impact without speed, or a reversal on a rigid stop; or a contact with a soft
+/// stop, or the interruption of one, that appears or vanishes.
+std::vector<Violation> grazes_of(const FollowedScene& scene, const Orbit& orbit,
+                                 const std::vector<Violation>& violations) {
   std::vector<Violation> grazes;
   for (const Violation& violation : violations) {
-    const bool reaches = violation.kind == Violation::Kind::passes_through &&
-                         orbit.event(violation.event + 1).kind == Event::Kind::reversal;
-    if (reaches || violation.kind == Violation::Kind::pulls) grazes.push_back(violation);
+    const Violation::Kind kind = violation.kind;
+    const OrbitEvent next = orbit.event(violation.event + 1);
+    const bool reaches = kind == Violation::Kind::passes_through &&
+                         (!is_impact(violation.turning.kind) ||
+                          (next.kind == Event::Kind::reversal && !is_soft(scene.stops, violation.turning.side)));
+    const bool pulls = kind == Violation::Kind::pulls && is_impact(orbit.events[violation.event].kind);
+    if (reaches || pulls || kind == Violation::Kind::ends_early) grazes.push_back(violation);
   }
   return grazes;
 }
@@ -63,7 +69,7 @@ std::optional<FrictionEnd> nearest_end(const Equations& builder, const OrbitEqua
   };
   for (const HaltChange& change : halt_changes(walked, between, violations))
     consider(exact_change(builder, beyond, change, within, tolerance), change);
-  for (const Violation& graze : grazes_of(walked.shape(), violations)) {
+  for (const Violation& graze : grazes_of(beyond, walked.shape(), violations)) {
     const Touch touch = touch_of(walked, {between.last_good, between.beyond, graze});
     consider(exact_graze(builder, beyond, touch.graze(), 0.0, false, within, tolerance), std::nullopt, graze);
   }
@@ -86,10 +92,12 @@ void end_in_change(const FrictionEnd& end, const BranchPoint& last_good, Record&
   const auto [special, is_new] = record.note(change.kind, at, change.condition);
   record.end(last, std::string(name_of(change.kind)));
   const bool jumps = change.opens == Opening::Kind::rebound && slips_on_from_stop(exact.scene, at.orbit, exact.event);
-  if (!is_new || jumps || !(change.beyond || change.opens)) return no_longer_waits(waiting, special, last.orbit);
+  const bool passes = change.opens && Opening{*change.opens}.is_of_soft_stop();
+  if (!is_new || jumps || !(change.beyond || change.opens))
+    return no_longer_waits(waiting, special, passes ? last_good.orbit : last.orbit);
   waiting.push_back({exact.scene, with_form(change.beyond.value_or(HaltForm::stick)), {}, special, generation});
   if (change.opens) waiting.back().opens = {*change.opens, exact.event};
-  if (exact.joins && change.before) waiting.push_back({exact.scene, at.orbit, {}, special, generation});
+  if (exact.joins && change.before && !passes) waiting.push_back({exact.scene, at.orbit, {}, special, generation});
 }
 
 }  // namespace clatter::branches

@@ -20,8 +20,7 @@ std::string events_of(const Orbit& orbit) {
   if (!orbit.halts()) return orbit.word();
   std::string letters;
   for (const OrbitEvent& event : orbit.whole().events) {
-    const char letter = event.kind == Event::Kind::stick ? 's' : event.kind == Event::Kind::reversal ? 'r' : 'i';
-    letters += {letter, event.side == Side::upper ? '+' : '-'};
+    letters += {static_cast<char>('a' + static_cast<int>(event.kind)), event.side == Side::upper ? '+' : '-'};
   }
   std::string first = letters;
   for (std::size_t i = 0; i < letters.size(); i += 2) {

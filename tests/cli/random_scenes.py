@@ -249,6 +249,20 @@ def slipping_scenes(count, seed):
     return scenes
 
 
+def rubbing_scenes(count, seed):
+    """Dry friction as between rigid stops, of which one or both are soft."""
+    draw = random.Random(seed)
+    scenes = slipping_scenes(count, seed)
+    for scene in scenes:
+        stiffness, damping = logarithmic(draw, 1, 300), draw.choice([0.0, logarithmic(draw, 0.01, 1)])
+        for side in draw.choice([("_lower", "_upper"), ("_lower", "_upper"), ("_upper",), ("_lower",)]):
+            if math.isfinite(getattr(scene, "stop" + side)):
+                setattr(scene, "stop_stiffness" + side, stiffness)
+                setattr(scene, "stop_damping" + side, damping)
+                setattr(scene, "R" + side, 1.0)
+    return scenes
+
+
 def carrying_scenes(count, seed):
     """A loose mass, mostly light, between two walls, alike or not, or before one that a load drives it to."""
     draw = random.Random(seed)

@@ -61,7 +61,8 @@ First rate_of_force(const SceneNumbers<First>& p, const OrbitEvent& event) {
   const First relaxation = p.soft_stop(event.side).relaxation();
   const auto [f, lead] = p.force();
   const First a = f * sin(phase + lead) + p.oscillator.load - 2 * p.oscillator.damping * v -
-                  p.oscillator.stiffness * (p.position(event.side) - relaxation * v);
+                  p.oscillator.stiffness * (p.position(event.side) - relaxation * v) -
+                  sign_of(event.heading()) * p.friction.kinetic;
   return v + relaxation * a;
 }
 /// The force on a mass at rest on a stop.
@@ -73,11 +74,11 @@ First force_on_stop(const SceneNumbers<First>& p, const OrbitEvent& event) {
 /// Of a halt the distance from a stop, or what the force lacks of a level of friction.
 First left_at_halt(const SceneNumbers<First>& p, const OrbitEvent& halt, const Condition& condition) {
   const First x = p.middle() + First(halt.place, by_before);
-  if (condition.kind == Condition::Kind::on_stop) return x - p.position(condition.side);
-  const auto [f, lead] = p.force();
   const double sign = sign_of(condition.side);
+  if (condition.kind == Condition::Kind::on_stop) return x - p.position(condition.side) - sign * condition.amount;
+  const auto [f, lead] = p.force();
   const First level = condition.kind == Condition::Kind::kinetic ? p.friction.kinetic : p.friction.static_level,
-              left = level - sign * (p.oscillator.load - p.oscillator.stiffness * x);
+              left = level - sign * p.standing_force(x, halt.held_by());
   if (condition.kind == Condition::Kind::tangency) return left - abs(f);
   return left - sign * f * sin(First(halt.phase, by_begin) + lead);
 }
@@ -105,7 +106,7 @@ void add_graze(const OrbitEquations& of, const Orbit& orbit, std::size_t event, 
 void add_duration(const OrbitEquations& of, const Orbit& orbit, const Condition& condition, std::size_t row,
                   Linearised& out) {
   const std::size_t i = condition.event, next = (i + 1) % orbit.size();
-  out.residual[row] = orbit.event(i + 1).phase - orbit.event(i).phase - condition.duration;
+  out.residual[row] = orbit.event(i + 1).phase - orbit.event(i).phase - condition.amount;
   out.slope(row, of.phase_of(i)) -= 1;
   out.slope(row, of.phase_of(next)) += 1;
 }

@@ -19,18 +19,18 @@ struct Condition {
     unit_product,  ///< of a loose mass: two multipliers, a complex pair, have the product 1
     graze,         ///< event number `event`, an impact or one on a soft stop, has no speed
     force,         ///< a soft stop's force, zero at event number `event`, doesn't change there
-    duration,      ///< the flight from event number `event` on lasts `duration`
+    duration,      ///< the flight from event number `event` on lasts `amount`
     level,         ///< at event number `event`, a halt, the other forces are at the static level of friction
     kinetic,       ///< there they are at the kinetic level
     tangency,      ///< at the place of that halt they only just come to the static level
-    on_stop,       ///< the place of that halt is that of a stop
+    on_stop,       ///< the place of that halt is that of a stop, or `amount` beyond it
     release  ///< the force on the mass is zero at the impact, event number `event`, after which it may rest if R = 0
   };
   Kind kind = Kind::multiplier;
   int multiplier = 1;
   std::size_t event = 0;
   std::optional<std::size_t> without{};  ///< the multiplier is that of the orbit without this event, which grazes
-  double duration = 0.0;                 ///< of the forcing phase, rad
+  double amount = 0.0;                   ///< of phase, rad, in a duration; beyond a soft stop, or less than 0 before it
   Side side = Side::none;                ///< to which the other forces push the halting mass; that stop
 
   [[nodiscard]] bool is_of_halt() const {
@@ -73,6 +73,7 @@ class OrbitEquations {
   [[nodiscard]] Orbit orbit_at(const Vector& unknowns) const;
   [[nodiscard]] FollowedScene scene_at(const Vector& unknowns) const;
 
+  [[nodiscard]] const FollowedScene& scene() const { return scene_; }
   [[nodiscard]] const Orbit& shape() const { return shape_; }
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
   /// Whether the stiffness of the spring, per unit mass, is one of what varies, or changes with it.

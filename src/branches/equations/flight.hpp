@@ -43,7 +43,13 @@ struct Flight {
   Side to;
   Number end;
   Event::Kind leaves = Event::Kind::impact, arrives = Event::Kind::impact;
-  bool from_crest = false;  ///< after a stick whose release is at the crest of the push, just as strong as the level
+  bool from_crest = false;    ///< after a stick whose release is at the crest of the push, just as strong as the level
+  Side held_by = Side::none;  ///< the soft stop that a halt at its beginning is in
+
+  /// The soft stop that the mass is in contact with.
+  [[nodiscard]] Side pressed() const { return halts(leaves) ? held_by : presses(leaves) ? from : Side::none; }
+  /// The side that the mass moves to, under dry friction.
+  [[nodiscard]] Side heading() const { return OrbitEvent{.side = from, .kind = leaves}.heading(); }
 
   /// Whether it is a contact with a soft stop, or an interruption of one: these become infinitely short where they
   /// vanish. An interruption lies beyond the stop's position, but without a damper, on the other side of it.
@@ -55,6 +61,17 @@ struct Flight {
            (arrives == Event::Kind::touch && from == to && p.soft_stop(to).damping == 0);
   }
 };
+
+/// A mass at x' = 0, at a place that counts from `SceneNumbers::middle`, when the forcing phase is this, in rad;
+/// perhaps beyond the position of a soft stop.
+template <class Number>
+struct Standing {
+  Number place, phase;
+  Side held_by = Side::none;
+};
+[[nodiscard]] inline Standing<double> standing_at(const OrbitEvent& halt) {
+  return {halt.place, halt.phase, halt.held_by()};
+}
 
 /// The end of a flight, beside the stop `to`.
 template <class Number>
@@ -83,13 +100,21 @@ class Flights {
     if (flight.leaves == Event::Kind::impact)
       return function(arc_from(towards(opposite(flight.from)), p_.position(flight.from),
                                p_.law(flight.from).after(flight.coordinate), flight.begin));
-    if (halts(flight.leaves)) return function(arc_from_halt(flight));
+    if (halts(flight.leaves))
+      return with_constants(flight, [&](const auto& constants) { return function(arc_from_halt(constants, flight)); });
     const motion::SoftStop<Number> stop = p_.soft_stop(flight.from);
     const Number offset =
         flight.leaves == Event::Kind::touch ? Number(0) : Number(-stop.relaxation() * flight.coordinate);
-    return with_constants(presses(flight.leaves) ? flight.from : Side::none, [&](const auto& constants) {
+    return with_constants(flight, [&](const auto& constants) {
       return function(arc_beside(constants, stop.position, offset, flight.coordinate, flight.begin));
     });
+  }
+  /// Calls `function(constants)` with those of the motion on a flight.
+  template <class Function>
+  decltype(auto) with_constants(const Flight<Number>& flight, Function&& function) const {
+    if (!slips_) return with_constants(flight.pressed(), function);
+    if (flight.pressed() == Side::none) return function(slips_->towards(flight.heading()));
+    return slips_->in_contact(flight.pressed(), flight.heading(), function);
   }
   /// Calls `function(constants)` with those of free motion, or of motion in contact with a soft stop.
   template <class Function>
@@ -99,18 +124,18 @@ class Flights {
 
   /// The static level of friction less the force that pushes a mass that halts at a place to a side: friction holds it
   /// against that if it isn't negative.
-  [[nodiscard]] Number left_to_level(const Number& place, const Number& phase, Side side) const {
-    return p_.friction.static_level - sign_of(side) * force_at(Number(p_.middle() + place), phase);
+  [[nodiscard]] Number left_to_level(const Standing<Number>& at, Side side) const {
+    return p_.friction.static_level - sign_of(side) * force_on(at);
   }
   /// The forcing phase, rad, from which on so strong a push rises beyond the static level (the guide's formula), less
   /// that at which the mass halts: negative if that is later, up to the push's crest. Infinite: it never or always is
   /// beyond. A crest that is the level to rounding is the release.
-  [[nodiscard]] Number hold(const Number& place, const Number& phase, Side side) const {
+  [[nodiscard]] Number hold(const Standing<Number>& at, Side side) const {
     using std::atan, std::sqrt;
-    const Number sine = push_at_release(place, side);
-    if (is_at_crest(sine)) return hold_to_crest(phase, side);
+    const Number sine = push_at_release(at, side);
+    if (is_at_crest(sine)) return hold_to_crest(at.phase, side);
     if (sine >= 1 || sine <= -1) return (sine > 0 ? 1 : -1) * std::numeric_limits<double>::infinity();
-    return atan(sine / sqrt((1 - sine) * (1 + sine))) - of_push(phase, side);
+    return atan(sine / sqrt((1 - sine) * (1 + sine))) - of_push(at.phase, side);
   }
   /// The forcing phase, rad, from that at which the mass halts on to the crest of the push.
   [[nodiscard]] Number hold_to_crest(const Number& phase, Side side) const {
@@ -120,7 +145,7 @@ class Flights {
   [[nodiscard]] Number start(const Flight<Number>& flight) const {
     if (flight.leaves != Event::Kind::stick) return flight.begin;
     if (flight.from_crest) return flight.begin + hold_to_crest(flight.begin, flight.from);
-    return flight.begin + hold_and_beyond(flight.coordinate, flight.begin, flight.from);
+    return flight.begin + hold_and_beyond({flight.coordinate, flight.begin, flight.held_by}, flight.from);
   }
 
   /// Calls `function(arc)` with the arc that a mass at a place goes on with, in contact with a soft stop or not.
@@ -188,9 +213,18 @@ class Flights {
     return constants_.force(sin(phase + lead_)) - constants_.spring(x);
   }
 
-  /// The acceleration of a mass that halts at a place, as it slips towards a side.
-  [[nodiscard]] Number acceleration(const Number& place, const Number& phase, Side side) const {
-    return force_at(Number(p_.middle() + place), phase) - sign_of(side) * p_.friction.kinetic;
+  /// The soft stop beyond whose position a mass halts.
+  [[nodiscard]] Side soft_stop_around(const Number& place) const {
+    return motion::soft_stop_around<Number>(p_.stops, Number(p_.middle() + place), Number(0)).side;
+  }
+  /// Force on a mass that halts.
+  [[nodiscard]] Number force_on(const Standing<Number>& at) const {
+    using std::sin;
+    return constants_.f * sin(at.phase + lead_) + p_.standing_force(Number(p_.middle() + at.place), at.held_by);
+  }
+  /// Its acceleration as it slips towards a side.
+  [[nodiscard]] Number acceleration(const Standing<Number>& at, Side side) const {
+    return force_on(at) - sign_of(side) * p_.friction.kinetic;
   }
 
   /// Phase of the force less that of the shaking, rad.
@@ -212,11 +246,10 @@ class Flights {
   }
 
   /// The push to a side at which a mass at a place is released, over that at its crest.
-  [[nodiscard]] Number push_at_release(const Number& place, Side side) const {
+  [[nodiscard]] Number push_at_release(const Standing<Number>& at, Side side) const {
     using std::abs;
-    const Number needed =
-        p_.friction.static_level - sign_of(side) * constants_.constant_force(Number(p_.middle() + place));
-    return needed / abs(constants_.f);
+    const Number force = p_.standing_force(Number(p_.middle() + at.place), at.held_by);
+    return (p_.friction.static_level - sign_of(side) * force) / abs(constants_.f);
   }
   [[nodiscard]] static bool is_at_crest(const Number& push) {
     constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
@@ -225,11 +258,11 @@ class Flights {
   /// `hold`, which beyond the crest goes on as it comes there: as far behind it as a push as much weaker is before it.
   /// That is no motion, but a step towards the crest passes through there: a release a way before it has a place by the
   /// square of that, so no line from there leads to the crest.
-  [[nodiscard]] Number hold_and_beyond(const Number& place, const Number& phase, Side side) const {
+  [[nodiscard]] Number hold_and_beyond(const Standing<Number>& at, Side side) const {
     using std::atan, std::sqrt;
-    const Number push = push_at_release(place, side);
-    if (!(push > 1) || is_at_crest(push)) return hold(place, phase, side);
-    return hold_to_crest(phase, side) + atan(sqrt((push - 1) * (push + 1)));
+    const Number push = push_at_release(at, side);
+    if (!(push > 1) || is_at_crest(push)) return hold(at, side);
+    return hold_to_crest(at.phase, side) + atan(sqrt((push - 1) * (push + 1)));
   }
 
   /// The phase of the push to a side from zero on its way up, between the crests: -3 pi/2 ... pi/2.
@@ -286,13 +319,15 @@ class Flights {
             {Number(0), x, v, constants.acceleration(Number(x - constants.equilibrium), v, sine), sine, cosine}};
   }
   /// At a release the acceleration is the difference of the levels of friction.
-  [[nodiscard]] motion::Arc<Number, E> arc_from_halt(const Flight<Number>& flight) const {
-    const motion::Arc<Number, E> arc =
-        arc_from(towards(flight.from), Number(p_.middle() + flight.coordinate), Number(0), start(flight));
+  template <Effects of>
+  [[nodiscard]] motion::Arc<Number, of> arc_from_halt(const motion::ArcConstants<Number, of>& constants,
+                                                      const Flight<Number>& flight) const {
+    const Number x = p_.middle() + flight.coordinate;
+    const motion::Arc<Number, of> arc = arc_beside(constants, x, Number(0), Number(0), start(flight));
     if (flight.leaves != Event::Kind::stick) return arc;
     motion::Motion<Number> released = arc.start();
     released.a = sign_of(flight.from) * (p_.friction.static_level - p_.friction.kinetic);
-    return {arc.constants(), released};
+    return {arc.constants(), released, x};
   }
   /// An arc that begins a little way off a soft stop.
   template <Effects of>

@@ -54,6 +54,11 @@ struct SceneNumbers : BasicScene<Number> {
   [[nodiscard]] motion::SoftStop<Number> soft_stop(Side stop) const {
     return motion::soft_stop_at<Number>(this->stops, stop);
   }
+  /// The constant force on a mass that stands still at x, beyond the position of a soft stop or of none.
+  [[nodiscard]] Number standing_force(const Number& x, Side held_by) const {
+    const Number force = this->oscillator.load - this->oscillator.stiffness * x;
+    return held_by == Side::none ? force : Number(force - soft_stop(held_by).stiffness * (x - position(held_by)));
+  }
   /// The only place that motion may be symmetric about; without a spring it has to lie between the stops.
   [[nodiscard]] Number middle() const {
     const auto& [lower, upper] = std::pair(this->stops.lower, this->stops.upper);

@@ -31,9 +31,15 @@ Number variable(double value, std::size_t index) {
 template <class Number>
 Flight<Number> flight_of(const Orbit& orbit, std::size_t i) {
   const OrbitEvent from = orbit.event(i), to = orbit.event(i + 1);
-  return {from.side, variable<Number>(from.phase, by_begin), variable<Number>(from.coordinate(), by_before),
-          to.side,   variable<Number>(to.phase, by_end),     from.kind,
-          to.kind};
+  return {from.side,
+          variable<Number>(from.phase, by_begin),
+          variable<Number>(from.coordinate(), by_before),
+          to.side,
+          variable<Number>(to.phase, by_end),
+          from.kind,
+          to.kind,
+          false,
+          from.held_by()};
 }
 
 /// A variable that a scene's parameter is, in numbers with derivatives by it.
@@ -95,8 +101,30 @@ inline ImpactMap map_of(const std::vector<Link<double>>& links, double determina
   return map;
 }
 
-/// The derivative of a flight's end by the state before the event that it begins with (eqs. 7, 27 and 53), times the
-/// speed before a rigid impact.
+/// The acceleration after a reversal, towards a side, over that before (eq. 64).
+template <class Number>
+Number reversal_factor(const SceneNumbers<Number>& p, Side to, const Standing<Number>& at) {
+  using std::sin;
+  const auto [f, lead] = p.force();
+  const Number push = f * sin(at.phase + lead) + p.standing_force(Number(p.middle() + at.place), at.held_by),
+               rubs = sign_of(to) * p.friction.kinetic;
+  return (push - rubs) / (push + rubs);
+}
+
+/// By how much the velocity after a stick changes with its place (eq. 65).
+template <class Number, Effects E>
+Number release_factor(const Flights<Number, E>& flights, const Flight<Number>& flight) {
+  using std::cos;
+  const SceneNumbers<Number>& p = flights.parameters();
+  const Number a = sign_of(flight.from) * (p.friction.static_level - p.friction.kinetic);
+  if (a == 0) return a;
+  Number k = p.oscillator.stiffness;
+  if (flight.held_by != Side::none) k += p.soft_stop(flight.held_by).stiffness;
+  return -a * k / (p.force().amplitude * p.oscillator.frequency * cos(flights.start(flight) + flights.lead()));
+}
+
+/// The derivative of a flight's end by the state before the event that it begins with (eqs. 7, 27, 53, 64 and 65),
+/// times the speed before a rigid impact.
 template <class Number, Effects E>
 Link<Number> link_of_states(const Flights<Number, E>& flights, const Flight<Number>& flight, bool mirrored) {
   const SceneNumbers<Number>& p = flights.parameters();
@@ -104,14 +132,21 @@ Link<Number> link_of_states(const Flights<Number, E>& flights, const Flight<Numb
   if (flight.leaves == Event::Kind::impact) {
     const Restitution<Number> law = p.law(flight.from);
     const Number &v = flight.coordinate, &h = p.oscillator.damping, share = law.share(v), slope = law.derivative(v);
-    const Number force = flights.force_at(p.position(flight.from), flight.begin);
-    link.numerator = {{{-share * v, Number(0)}, {-slope * (force - 2 * h * v) + force + 2 * h * share * v, slope * v}}};
+    const Number force = flights.force_at(p.position(flight.from), flight.begin),
+                 rubs = sign_of(flight.from) * p.friction.kinetic, before = force - 2 * h * v - rubs,
+                 after = force + 2 * h * share * v + rubs;
+    link.numerator = {{{-share * v, Number(0)}, {after - slope * before, slope * v}}};
     link.denominator = v;
   } else if (flight.leaves == Event::Kind::touch) {
     link.numerator[1][0] = -2 * p.soft_stop(flight.from).damping;
+  } else if (flight.leaves == Event::Kind::reversal) {
+    link.numerator[1][1] =
+        reversal_factor(p, flight.from, Standing<Number>{flight.coordinate, flight.begin, flight.held_by});
+  } else if (flight.leaves == Event::Kind::stick) {
+    link.numerator[1] = {release_factor(flights, flight), Number(0)};
   }
-  const Number time = (flight.end - flight.begin) / p.oscillator.frequency;
-  flights.with_constants(presses(flight.leaves) ? flight.from : Side::none, [&](const auto& constants) {
+  const Number time = (flight.end - flights.start(flight)) / p.oscillator.frequency;
+  flights.with_constants(flight, [&](const auto& constants) {
     const motion::Propagator<Number> free = constants.propagator(time);
     const Number sign = mirrored ? -1 : 1;
     const Square<Number> flown{{{sign * free.a, sign * free.b}, {-sign * constants.spring(free.b), sign * free.c}}};
@@ -135,16 +170,6 @@ std::vector<Link<Number>> links_of_states(const FollowedScene& scene, const Orbi
   return links;
 }
 
-/// The acceleration after a reversal at a place, towards a side, over that before (eq. 64).
-template <class Number>
-Number reversal_factor(const SceneNumbers<Number>& p, Side to, const Number& phase, const Number& place) {
-  using std::sin;
-  const auto [f, lead] = p.force();
-  const Number push = f * sin(phase + lead) + p.oscillator.load - p.oscillator.stiffness * (p.middle() + place),
-               rubs = sign_of(to) * p.friction.kinetic;
-  return (push - rubs) / (push + rubs);
-}
-
 /// R^(2n) e^(-2 h T) of the impacts of an orbit as it is kept, less by e^(-2 h_s t) in a contact with a soft stop, by
 /// the accelerations after and before each reversal; 0 with a stick.
 template <class Number>
@@ -166,7 +191,8 @@ Number determinant_of(const SceneNumbers<Number>& p, const Orbit& orbit) {
       press(side, orbit.event(i + 1).phase - event.phase);
     if (event.kind == Event::Kind::stick) determinant = Number(0);
     if (event.kind == Event::Kind::reversal)
-      determinant *= reversal_factor(p, event.side, Number(event.phase), Number(event.place));
+      determinant *=
+          reversal_factor(p, event.side, Standing<Number>{Number(event.place), Number(event.phase), event.held_by()});
   }
   return determinant;
 }

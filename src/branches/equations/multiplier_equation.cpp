@@ -71,7 +71,8 @@ First determinant_by_reversal(const SceneNumbers<First>& p, const Orbit& orbit, 
   Orbit others = orbit;
   others.events.erase(others.events.begin() + static_cast<std::ptrdiff_t>(i));
   return determinant_of(p, others) *
-         reversal_factor(p, halt.side, First(halt.phase, by_begin), First(halt.place, by_before));
+         reversal_factor(p, halt.side,
+                         Standing<First>{First(halt.place, by_before), First(halt.phase, by_begin), halt.held_by()});
 }
 
 }  // namespace
@@ -107,9 +108,10 @@ void OrbitEquations::add_multiplier(const FollowedScene& scene, const Orbit& all
     out.slope(row, phase_at(i) + 1) += chain.c() * by_halt.slope[by_before] * speed_unit_;
   }
   for (std::size_t i = 0; i < count; ++i) {  // longer contacts with a soft stop take more
-    if (!presses(orbit.events[i].kind)) continue;
-    const double longer = -2 * p.soft_stop(orbit.events[i].side).damping.value / p.oscillator.frequency.value *
-                          chain.c() * determinant.value;
+    const Side pressed = orbit.pressed_after(i);
+    if (pressed == Side::none) continue;
+    const double longer =
+        -2 * p.soft_stop(pressed).damping.value / p.oscillator.frequency.value * chain.c() * determinant.value;
     out.slope(row, phase_at(i)) -= longer, out.slope(row, next_phase(i)) += longer;
   }
 }

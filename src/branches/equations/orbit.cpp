@@ -64,7 +64,7 @@ Side Orbit::heading_before(std::size_t i) const {
 
 bool Orbit::meets_soft_stop() const {
   return pressed != Side::none || std::ranges::any_of(events, [](const OrbitEvent& event) {
-           return !is_impact(event.kind) && !branches::halts(event.kind);
+           return branches::halts(event.kind) ? event.held_by() != Side::none : !is_impact(event.kind);
          });
 }
 
@@ -72,6 +72,10 @@ bool Orbit::meets_walls() const { return std::ranges::any_of(events, &OrbitEvent
 
 bool Orbit::halts() const {
   return std::ranges::any_of(events, [](const OrbitEvent& event) { return branches::halts(event.kind); });
+}
+
+bool Orbit::is_of_free_halts() const {
+  return std::ranges::all_of(events, branches::halts, &OrbitEvent::kind) && !meets_soft_stop();
 }
 
 bool Orbit::changes_nothing(std::size_t i) const {
@@ -182,7 +186,9 @@ Orbit Orbit::once_with_graze(std::size_t i, bool symmetric_scene) const {
 
 /// Motion without a letter whose soft stop is left or meets the mass again does so beyond the stop's position.
 std::string Orbit::word(const WordLetters& letters) const {
-  const Side soft = meets_soft_stop() && !events.empty() ? events.front().side : pressed;
+  const auto first = std::ranges::find_if(events, [](const OrbitEvent& event) { return !branches::halts(event.kind); });
+  const Side held = events.empty() ? pressed : events.front().held_by();
+  const Side soft = meets_soft_stop() && first != events.end() ? first->side : held;
   return ImpactWord::word_of(contacts_of(*this, letters), soft);
 }
 std::string Orbit::regime(const WordLetters& letters) const {

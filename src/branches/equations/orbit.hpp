@@ -24,6 +24,11 @@ using motion::Event;
   return kind == Event::Kind::stick || kind == Event::Kind::reversal;
 }
 
+/// Whether an event is one of a soft stop, at which its contact with the mass begins or ends.
+[[nodiscard]] constexpr bool is_of_soft_stop(Event::Kind kind) {
+  return presses(kind) || kind == Event::Kind::separation;
+}
+
 /// Whether restitution changes the velocity: on a rigid stop, or on a wall of a housing.
 [[nodiscard]] constexpr bool is_impact(Event::Kind kind) {
   return kind == Event::Kind::impact || kind == Event::Kind::strike;
@@ -44,15 +49,17 @@ struct OrbitEvent {
     double place = 0.0, before = 0.0;
   };
   Other other{};
-  /// The soft stop, or none, that the main mass is in contact with from a strike on, if that changes it: it takes away
-  /// the force of a damper, or brings it.
+  /// The soft stop, or none, that the main mass is in contact with from a halt on, or from a strike on, if that changes
+  /// it: it takes away the force of a damper, or brings it.
   std::optional<Side> contact{};
 
   /// The unknown beside the phase: the velocity before the event, or the place of a halt.
   [[nodiscard]] double coordinate() const { return halts(kind) ? place : before; }
   [[nodiscard]] double& coordinate() { return halts(kind) ? place : before; }
-  /// The side that the mass moves to after a halt, or a rebound from a rigid stop.
-  [[nodiscard]] Side heading() const { return halts(kind) ? side : opposite(side); }
+  /// The side that the mass moves to after it, under dry friction up to the next event.
+  [[nodiscard]] Side heading() const { return halts(kind) || kind == Event::Kind::touch ? side : opposite(side); }
+  /// The soft stop beyond whose position the mass halts; none: between the stops.
+  [[nodiscard]] Side held_by() const { return contact.value_or(Side::none); }
 
   /// Whether it is one of a loose mass, on a wall of its housing.
   [[nodiscard]] bool is_of_wall() const { return kind == Event::Kind::strike; }
@@ -80,7 +87,9 @@ struct Orbit {
   [[nodiscard]] bool rests() const;  ///< on a stop, once in a period or more often
   [[nodiscard]] bool next_is_rest(std::size_t i) const { return i + 1 < size() && events[i + 1].rest > 0; }
   [[nodiscard]] bool meets_soft_stop() const;
-  [[nodiscard]] bool halts() const;  ///< by dry friction, away from the stops
+  [[nodiscard]] bool halts() const;  ///< by dry friction, away from rigid stops
+  /// Whether all that it does is to halt, between the stops.
+  [[nodiscard]] bool is_of_free_halts() const;
   [[nodiscard]] bool meets_walls() const;
   [[nodiscard]] bool meets_stops() const;  ///< any event is one of the main mass
   /// The soft stop that the mass is in contact with just after event i = 0, 1, ..., size() - 1.
@@ -93,7 +102,7 @@ struct Orbit {
   [[nodiscard]] bool ends_mirrored(std::size_t i) const { return mirrored && i + 1 == size(); }
   /// Event i = 0, 1, ...: from number size on it is one of the first again, half a period or a period later.
   [[nodiscard]] OrbitEvent event(std::size_t i) const;
-  /// The side that the mass moves to before event i, if it is one of rigid stops and dry friction.
+  /// The side that the mass moves to before event i, under dry friction.
   [[nodiscard]] Side heading_before(std::size_t i) const;
 
   [[nodiscard]] Orbit from_event(std::size_t i) const;  ///< this motion, with event i as its first

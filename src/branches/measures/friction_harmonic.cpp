@@ -33,10 +33,10 @@ Harmonic harmonic_of(const Moving& moving) {
   for (std::size_t i = 0; i < count; ++i) {
     const MovingEvent &from = moving.events[i], &to = moving.events[(i + 1) % count];
     const Along end = i + 1 < count ? to.phase : to.phase + moving.period * nu;
-    const Flight<Along> flight{from.side, from.phase, from.coordinate, to.side, end, from.kind, to.kind};
+    const Flight<Along> flight{from.side, from.phase, from.coordinate, to.side,     end,
+                               from.kind, to.kind,    false,           from.pressed};
     const Along start = flights.start(flight);
-    const Side heading = halts(from.kind) ? from.side : opposite(from.side);
-    add_constant(-sign_of(heading) * moving.p.friction.kinetic, {start, end}, nu, sum);
+    add_constant(-sign_of(flight.heading()) * moving.p.friction.kinetic, {start, end}, nu, sum);
     if (from.kind != Event::Kind::stick) continue;
     const Along place = moving.p.middle() + from.coordinate;
     add_constant(-flights.constants().constant_force(place), {from.phase, start}, nu, sum);

@@ -8,7 +8,8 @@ namespace clatter::branches {
 struct Harmonic {
   Along re = 0, im = 0;
 };
-/// The harmonic of the force of friction, in closed form: mu against each slip, and in a stick all that holds the mass.
+/// The harmonic of the force of friction, in closed form: mu against each slip, and in a stick all that holds the mass,
+/// a soft stop, too.
 [[nodiscard]] Harmonic friction_harmonic(const Moving& moving);
 
 }  // namespace clatter::branches

@@ -28,7 +28,8 @@ void each_flight(const FollowedScene& scene, const Orbit& orbit, Function&& func
       const OrbitEvent to = orbit.event(i + 1);
       if (to.rest > 0) continue;  // the flights that are left of a chatter reach nowhere
       from.phase += from.rest;
-      const Flight<double> flight{from.side, from.phase, from.coordinate(), to.side, to.phase, from.kind, to.kind};
+      const Flight<double> flight{from.side, from.phase, from.coordinate(), to.side, to.phase, from.kind,
+                                  to.kind,   false,      from.held_by()};
       const double start = flights.start(flight);
       flights.with_arc(flight,
                        [&](const auto& arc) { function(arc, start, (to.phase - start) / flights.constants().nu); });
@@ -56,7 +57,7 @@ double hold(const FollowedScene& scene, const OrbitEvent& event) {
   if (event.kind != Event::Kind::stick) return 0.0;
   return with_arcs(scene, [&]<Effects E>() {
     const Flights<double, E> flights{numbers_of<double>(scene)};
-    return flights.hold(event.place, event.phase, event.side);
+    return flights.hold(standing_at(event), event.side);
   });
 }
 

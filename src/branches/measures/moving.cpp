@@ -119,8 +119,8 @@ double loss_on_soft_stops(const FollowedScene& scene, const Orbit& orbit) {
   Moving m = motion_at(scene, orbit, numbers_of<Along>(scene));
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const OrbitEvent& event = orbit.events[i];
-    m.events.push_back({event.side, event.phase, event.before, false, event.kind, event.other.place, event.other.before,
-                        orbit.pressed_after(i)});
+    m.events.push_back({event.side, event.phase, event.coordinate(), false, event.kind, event.other.place,
+                        event.other.before, orbit.pressed_after(i)});
   }
   return soft_contacts(m).loss.value;
 }

@@ -19,7 +19,7 @@ void add_contact(const A& arc, const motion::SoftStop<Along>& stop, const Along&
   observables::over_panels<20>(1.0, {fastest * whole, lasting * whole}, 2, [&](double share, double weight) {
     const Along time = share * length, phase = begin + constants.nu * time;
     const motion::Motion<Along> m = arc.at(time);
-    const Along force = weight * stop.force(m.offset, m.v);
+    const Along force = weight * stop.force(Along(arc.anchor() - stop.position) + m.offset, m.v);
     part.loss += weight * m.v * m.v, part.re -= force * cos(phase), part.im += force * sin(phase);
   });
   sum.loss += 2 * stop.damping * length * part.loss;
@@ -33,8 +33,8 @@ Along stored(const SceneNumbers<Along>& p, const motion::SoftStop<Along>& stop, 
   return stop.stiffness * depth * depth / 2;
 }
 
-/// Contacts on arcs of a main mass: `with_arc(i, end, function)` calls `function(arc)` with that of the flight after
-/// event i, which lasts until the phase `end`.
+/// Contacts on arcs of a main mass: `with_arc(i, end, function)` calls `function(arc, begin)` with that of the flight
+/// after event i, from the phase `begin` to `end`.
 template <class WithArc>
 void add_contacts(const Moving& moving, const WithArc& with_arc, SoftContacts& sum) {
   const std::size_t count = moving.events.size();
@@ -43,8 +43,8 @@ void add_contacts(const Moving& moving, const WithArc& with_arc, SoftContacts& s
     if (from.pressed == Side::none) continue;
     const motion::SoftStop<Along> stop = moving.p.soft_stop(from.pressed);
     const Along end = i + 1 < count ? to.phase : to.phase + moving.period * moving.p.oscillator.frequency;
-    with_arc(i, end, [&](const auto& arc) {
-      add_contact(arc, stop, from.phase, (end - from.phase) / moving.p.oscillator.frequency, sum);
+    with_arc(i, end, [&](const auto& arc, const Along& begin) {
+      add_contact(arc, stop, begin, (end - begin) / moving.p.oscillator.frequency, sum);
     });
     // a stop that the mass outruns relaxes as far as it is touched again
     const bool leaves =
@@ -66,7 +66,9 @@ SoftContacts contacts_of_one(const Moving& moving) {
     });
   const auto with_arc = [&](std::size_t i, const Along& end, const auto& function) {
     const MovingEvent &from = moving.events[i], &to = moving.events[(i + 1) % moving.events.size()];
-    flights.with_arc({from.side, from.phase, from.coordinate, to.side, end, from.kind, to.kind}, function);
+    const Flight<Along> flight{from.side, from.phase, from.coordinate, to.side,     end,
+                               from.kind, to.kind,    false,           from.pressed};
+    flights.with_arc(flight, [&](const auto& arc) { function(arc, flights.start(flight)); });
   };
   add_contacts(moving, with_arc, sum);
   return sum;
@@ -80,7 +82,7 @@ SoftContacts contacts_of_both(const Moving& moving) {
     const MovingEvent &from = moving.events[i], &to = moving.events[(i + 1) % moving.events.size()];
     flights.with_arc({from.kind, to.kind, from.side, to.side, from.phase, from.coordinate, from.other_place,
                       from.other_before, end, from.pressed},
-                     [&](const auto& arc) { function(arc.main()); });
+                     [&](const auto& arc) { function(arc.main(), from.phase); });
   };
   add_contacts(moving, with_arc, sum);
   return sum;

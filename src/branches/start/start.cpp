@@ -41,7 +41,7 @@ std::optional<double> middle_of_flight(const point::Problem& problem, std::int64
     const bool is_contact = event.kind == Event::Kind::separation || is_pressed;
     if (end - begin >= shortest && !is_contact) return (begin + end) / 2;
     begin = (event.phase + event.rest) / turn;
-    if (!event.is_of_wall()) is_pressed = presses(event.kind);
+    if (!event.is_of_wall() && !halts(event.kind)) is_pressed = presses(event.kind);
   }
   const auto last = static_cast<double>(periods);
   return begin < last ? std::optional((begin + last) / 2) : std::nullopt;
@@ -105,21 +105,23 @@ void require_friction_to_follow(const point::Problem& problem) {
     throw StartError(
         "branches of motion under dry friction are followed without a loose mass alone; sweep the parameter with "
         "follow instead, or leave out friction or loose_mass");
-  if (has_friction(problem.friction) && has_soft_stop(problem.stops))
-    throw StartError(
-        "branches of motion under dry friction are followed between rigid stops alone, as their equations have no "
-        "halts within soft ones; sweep the parameter with follow instead, or leave out friction or stop_stiffness");
 }
 
-/// Gives each halt the side that the mass slips to from there: that of the next event.
+/// Gives each halt the side that the mass slips to from there, which is that of the next event, and the soft stop that
+/// it is in.
 void set_sides(const point::Problem& problem, Orbit& orbit) {
   const SceneNumbers<double> p{problem};
   const auto place = [&](const OrbitEvent& event) {
-    return halts(event.kind) ? event.place : p.position(event.side) - p.middle();
+    if (halts(event.kind)) return event.place;
+    const double at_stop = p.position(event.side) - p.middle();
+    return event.is_contact() ? at_stop : at_stop - p.soft_stop(event.side).relaxation() * event.before;
   };
-  for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (halts(orbit.events[i].kind))
-      orbit.events[i].side = place(orbit.event(i + 1)) > place(orbit.event(i)) ? Side::upper : Side::lower;
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    OrbitEvent& halt = orbit.events[i];
+    if (!halts(halt.kind)) continue;
+    halt.side = place(orbit.event(i + 1)) > halt.place ? Side::upper : Side::lower;
+    halt.contact = motion::soft_stop_around(problem.stops, p.middle() + halt.place, 0.0).side;
+  }
 }
 
 /// A run tells a stick that lasts beyond a forcing period once more from there on, at the same place. If it begins

@@ -13,7 +13,9 @@ Orbit at_rest(const FollowedScene& scene, Orbit orbit) {
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     OrbitEvent& stick = orbit.events[i];
     stick.phase = crest_near(p, slipping.heading_before(i), stick.phase);
-    if (p.oscillator.stiffness != 0) stick.place = 0;
+    const Side stop = stick.held_by();
+    const double k = p.oscillator.stiffness + (stop == Side::none ? 0.0 : p.soft_stop(stop).stiffness);
+    if (k != 0) stick.place = stop == Side::none ? 0.0 : p.standing_force(p.middle(), stop) / k;
   }
   return orbit;
 }

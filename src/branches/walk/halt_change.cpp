@@ -7,6 +7,7 @@
 #include "branches/equations/flight.hpp"
 #include "branches/equations/newton.hpp"
 #include "branches/walk/ceasing.hpp"
+#include "branches/walk/halt_at_soft_stop.hpp"
 #include "branches/walk/slip_violation.hpp"
 
 namespace clatter::branches {
@@ -21,19 +22,15 @@ Condition level(Kind kind, std::size_t halt, Side side) {
 /// Calls `function(flights)` with the flights of a scene.
 template <class Function>
 double of_flights(const FollowedScene& scene, Function&& function) {
-  return with_arcs(scene, [&]<Effects E>() {
-    const Flights<double, E> flights{numbers_of<double>(scene)};
-    return function(flights);
-  });
+  return with_arcs(scene, [&]<Effects E>() { return function(Flights<double, E>{numbers_of<double>(scene)}); });
 }
 /// How long friction holds a mass where it halts against a push to its side, rad.
 double held(const FollowedScene& scene, const OrbitEvent& halt) {
-  return of_flights(scene, [&](const auto& flights) { return flights.hold(halt.place, halt.phase, halt.side); });
+  return of_flights(scene, [&](const auto& flights) { return flights.hold(standing_at(halt), halt.side); });
 }
 /// Whether friction holds a mass against a push to a side at the instant at which it halts.
 bool holds(const FollowedScene& scene, const OrbitEvent& halt, Side side) {
-  return of_flights(scene, [&](const auto& flights) { return flights.left_to_level(halt.place, halt.phase, side); }) >=
-         0;
+  return of_flights(scene, [&](const auto& flights) { return flights.left_to_level(standing_at(halt), side); }) >= 0;
 }
 
 /// Whether the force that pushes a halting mass to its side rises.
@@ -67,7 +64,7 @@ Orbit merged(const Orbit& orbit, std::size_t event = 0) {
 /// The length, rad, of the slip from an event to a stick; infinite if it can't vanish. One that a push at a static
 /// level above the kinetic one begins can't, however short it is.
 double length_of_slip(const FollowedScene& scene, const OrbitEvent& from, const OrbitEvent& to) {
-  if (to.kind != Event::Kind::stick || (halts(from.kind) && motion_jumps(scene)))
+  if (to.kind != Event::Kind::stick || is_of_soft_stop(from.kind) || (halts(from.kind) && motion_jumps(scene)))
     return std::numeric_limits<double>::infinity();
   return to.phase - from.phase - (from.kind == Event::Kind::stick ? held(scene, from) : 0.0);
 }
@@ -165,8 +162,7 @@ Orbit first_of_odd(const Orbit& orbit, double tolerance) {
 /// Whether motion may be its own mirror image: between stops that are each other's, or where it doesn't meet them.
 bool may_be_mirrored(const FollowedScene& scene, const Orbit& orbit, const Condition& condition) {
   if (is_symmetric(scene)) return true;
-  return condition.kind != Kind::on_stop && scene.oscillator.stiffness != 0 &&
-         std::ranges::all_of(orbit.events, halts, &OrbitEvent::kind);
+  return condition.kind != Kind::on_stop && scene.oscillator.stiffness != 0 && orbit.is_of_free_halts();
 }
 
 /// A change that comes to the motion in each of its repetitions, or also in its mirror image, as that of the first one:
@@ -190,7 +186,8 @@ void join(ExactGraze& exact, const HaltChange& change) {
   const OrbitEvent& halt = exact.orbit.events[exact.event];
   Orbit once;
   if (exact.orbit.heading_before(exact.event) != halt.side) {
-    once = formed(exact.scene, exact.orbit, exact.event, HaltForm::stick).half_if_same(same, symmetric);
+    const HaltForm form = change.condition.kind == Kind::on_stop ? *change.before : HaltForm::stick;
+    once = formed(exact.scene, exact.orbit, exact.event, form).half_if_same(same, symmetric);
   } else {
     const Orbit without = formed(exact.scene, exact.orbit, exact.event, HaltForm::none);
     const auto later = std::ranges::upper_bound(without.events, halt.phase, {}, &OrbitEvent::phase);
@@ -275,7 +272,8 @@ std::optional<HaltChange> of_violation(const OrbitEquations& equations, const Cu
   const bool jumps = motion_jumps(scene);
   switch (found.kind) {
     case Violation::Kind::passes_through:
-      return orbit.size() > 0 ? reaching(orbit, (i + 1) % orbit.size()) : std::nullopt;
+      if (!is_impact(found.turning.kind) || is_soft(scene.stops, found.turning.side)) return std::nullopt;
+      return reaching(orbit, (i + 1) % orbit.size());
     case Violation::Kind::halts:
       return grazing(orbit, scene, found, jumps);
     case Violation::Kind::runs_on:
@@ -302,7 +300,7 @@ void add_releases_at_crest(const OrbitEquations& equations, const CurvePoint& at
     const OrbitEvent& stick = orbit.events[i];
     if (stick.kind != Event::Kind::stick) continue;
     const double before = of_flights(scene, [&](const auto& flights) {
-      return flights.hold_to_crest(stick.phase, stick.side) - flights.hold(stick.place, stick.phase, stick.side);
+      return flights.hold_to_crest(stick.phase, stick.side) - flights.hold(standing_at(stick), stick.side);
     });
     if (before < near_crest)
       changes.push_back({SpecialKind::release_tangency, orbit, level(Kind::tangency, i, stick.side), HaltForm::stick});
@@ -319,10 +317,7 @@ bool jumps_to_stick(const FollowedScene& scene, const Orbit& orbit, std::size_t 
 bool slips_on_from_stop(const FollowedScene& scene, const Orbit& orbit, std::size_t stick) {
   const OrbitEvent& halt = orbit.events[stick];
   const Side away = opposite(orbit.heading_before(stick));
-  return sign_of(away) *
-             of_flights(scene,
-                        [&](const auto& flights) { return flights.acceleration(halt.place, halt.phase, away); }) >
-         0;
+  return sign_of(away) * acceleration_from(scene, halt, away) > 0;
 }
 
 std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narrowed& found,
@@ -338,6 +333,7 @@ std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narr
   for (const Violation& violation : violations)
     if (const auto change = of_violation(equations, found.beyond, violation)) changes.push_back(*change);
   add_releases_at_crest(equations, found.last_good, changes);
+  add_passing(scene, orbit, violations, changes);
   return changes;
 }
 

@@ -84,7 +84,7 @@ std::optional<Orbit> half_of_free_slips(const FollowedScene& scene, const Orbit&
   constexpr double same = 1e-6;
   const Orbit half = orbit.half_if_same(same, scene.oscillator.stiffness != 0);
   if (orbit.mirrored || !half.mirrored || 2 * half.size() != orbit.size()) return std::nullopt;
-  if (half.size() == 0 || !std::ranges::all_of(half.events, halts, &OrbitEvent::kind)) return std::nullopt;
+  if (half.size() == 0 || !half.is_of_free_halts()) return std::nullopt;
   return half;
 }
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "branches/equations/flight.hpp"
 #include "branches/equations/newton.hpp"
 #include "branches/walk/ceasing.hpp"
+#include "branches/walk/halt_at_soft_stop.hpp"
 #include "branches/walk/halves.hpp"
 #include "branches/walk/violation.hpp"
 
@@ -15,11 +17,12 @@ namespace {
 
 using Kind = Opening::Kind;
 
-/// Acceleration at an event, that of the free motion.
+/// Acceleration at an event of a soft stop, that of the free motion.
 double acceleration(const SceneNumbers<double>& p, const OrbitEvent& event, double offset) {
   const LeadingForce<double> force = p.force();
   return force.amplitude * std::sin(event.phase + force.lead) + p.oscillator.load -
-         2 * p.oscillator.damping * event.before - p.oscillator.stiffness * (p.position(event.side) + offset);
+         2 * p.oscillator.damping * event.before - p.oscillator.stiffness * (p.position(event.side) + offset) -
+         sign_of(event.heading()) * p.friction.kinetic;
 }
 
 /// An orbit with a graze as if a contact or an interruption that lasts for `advance` of the phase began and ended
@@ -52,8 +55,7 @@ Orbit with_rebound(const FollowedScene& scene, const Orbit& orbit, std::size_t s
   const Side stop = orbit.heading_before(stick);
   const SceneNumbers<double> p = numbers_of<double>(scene);
   OrbitEvent event{stop, orbit.events[stick].phase}, halt = orbit.events[stick];
-  const double a = with_arcs(
-      scene, [&]<Effects E>() { return Flights<double, E>{p}.acceleration(halt.place, halt.phase, opposite(stop)); });
+  const double a = acceleration_from(scene, halt, opposite(stop));
   const double time = advance / p.oscillator.frequency;
   event.before = a * time / p.law(stop).share_at_rest();
   halt.phase += advance, halt.place -= a * time * time / 2;
@@ -70,8 +72,7 @@ Orbit with_turn(const FollowedScene& scene, const Orbit& orbit, std::size_t stic
   OrbitEvent turn = orbit.events[stick], halt = turn;
   turn.kind = Event::Kind::reversal, turn.side = opposite(orbit.heading_before(stick));
   const double f = std::abs(p.force().amplitude), nu = p.oscillator.frequency, sign = sign_of(turn.side);
-  const double needed = p.friction.static_level -
-                        sign * (p.oscillator.load - p.oscillator.stiffness * (p.middle() + turn.place)),
+  const double needed = p.friction.static_level - sign * p.standing_force(p.middle() + turn.place, turn.held_by()),
                after_crest = std::acos(std::clamp(needed / f, -1.0, 1.0));
   const double at_level = crest_near(p, turn.side, turn.phase) + after_crest, c = f * nu * std::sin(after_crest);
   turn.phase = at_level - advance / 2, halt.phase = at_level + advance / 2;
@@ -91,8 +92,11 @@ Orbit with_release(const FollowedScene& scene, const Orbit& orbit, std::size_t s
   held.side = opposite(halt.side);
   const double crest = crest_near(p, held.side, held.phase);
   halt.phase = (crest < held.phase ? crest + 2 * std::numbers::pi : crest) + 2 * r;
-  const double sign = sign_of(held.side), k = p.oscillator.stiffness;
-  if (k != 0) held.place = sign * (f * (1 - r * r / 2) - p.friction.static_level) / k;
+  const double sign = sign_of(held.side);
+  const double k =
+      p.oscillator.stiffness + (held.held_by() == Side::none ? 0.0 : p.soft_stop(held.held_by()).stiffness);
+  const double balance = p.standing_force(p.middle() + held.place, held.held_by());
+  if (k != 0) held.place += (balance + sign * (f * (1 - r * r / 2) - p.friction.static_level)) / k;
   halt.place = held.place + sign * 9 / 8.0 * f * std::pow(r, 4) / std::pow(p.oscillator.frequency, 2);
   Orbit out = orbit;
   out.events[stick] = halt;
@@ -111,6 +115,9 @@ Orbit with_opening(const FollowedScene& scene, const Orbit& orbit, const Opening
       return with_turn(scene, orbit, opening.event, advance);
     case Kind::release:
       return with_release(scene, orbit, opening.event, advance);
+    case Kind::within:
+    case Kind::outside:
+      return with_halt_beside(scene, orbit, opening.event, advance, opening.kind == Kind::within);
   }
   return orbit;
 }
@@ -128,6 +135,45 @@ std::optional<Opening> another(Kind kind, const Violation& found) {
   return std::nullopt;
 }
 
+/// The number of a halt beside a soft stop in an orbit that has opened at it.
+std::size_t halt_of(const Opening& opening, const Orbit& orbit) {
+  return opening.event + !halts(orbit.events[opening.event].kind);
+}
+/// The condition that what has begun at an event `first` lasts for `advance` of the phase.
+Condition lasts(const FollowedScene& scene, const Orbit& orbit, const Opening& opening, std::size_t first,
+                double advance) {
+  using enum Condition::Kind;
+  if (opening.is_of_soft_stop()) {
+    const std::size_t number = halt_of(opening, orbit);
+    const OrbitEvent& halt = orbit.events[number];
+    const SceneNumbers<double> p = numbers_of<double>(scene);
+    const Side side = soft_stop_at_halt(scene, halt);
+    return {.kind = on_stop,
+            .event = number,
+            .without = {},
+            .amount = sign_of(side) * (p.middle() + halt.place - p.position(side)),
+            .side = side};
+  }
+  // the stick before an early release lasts on to the crest, beside which the slip ends
+  const double length =
+      opening.kind == Kind::release ? orbit.event(first + 1).phase - orbit.event(first).phase : advance;
+  return {.kind = duration, .event = first, .amount = length};
+}
+/// The direction in which what has begun grows, in the unknowns.
+Vector growth(const OrbitEquations& of, const Opening& opening, std::size_t first) {
+  Vector longer(of.unknowns(), 0.0);
+  if (opening.is_of_soft_stop()) {
+    const std::size_t halt = halt_of(opening, of.shape());
+    const OrbitEvent& event = of.shape().events[halt];
+    const Side side = soft_stop_at_halt(of.scene(), event);
+    longer[of.phase_of(halt) + 1] = sign_of(side) * (opening.kind == Kind::within ? 1 : -1);
+    return longer;
+  }
+  longer[of.phase_of(first)] = -1;
+  longer[of.phase_of((first + 1) % of.shape().size())] = 1;
+  return longer;
+}
+
 /// Motion between the stops with what began at an event `first`.
 struct Lasting {
   Orbit orbit;
@@ -139,12 +185,8 @@ std::optional<Lasting> with_lasting(const Equations& equations, const FollowedSc
                                     const Opening& opening, double advance, double tolerance) {
   Lasting lasting{with_opening(scene, orbit, opening, advance), {}, opening.event};
   for (int times = 1; times <= 2; ++times) {
-    // the stick before an early release lasts on to the crest, beside which the slip ends
-    const double lasts = opening.kind == Kind::release
-                             ? lasting.orbit.event(lasting.first + 1).phase - lasting.orbit.event(lasting.first).phase
-                             : advance;
     const OrbitEquations there =
-        equations(lasting.orbit, {{.kind = Condition::Kind::duration, .event = lasting.first, .duration = lasts}});
+        equations(lasting.orbit, {lasts(scene, lasting.orbit, opening, lasting.first, advance)});
     auto at = solution(there, there.unknowns_of(scene, lasting.orbit), tolerance);
     if (!at) return std::nullopt;
     const auto violated = violation(there, *at);
@@ -165,17 +207,16 @@ std::optional<Opened> opened_once(const Equations& equations, const FollowedScen
                                   const Opening& opening, double tolerance) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
   const OrbitEvent& event = orbit.events[opening.event];
-  const double of_stop = halts(event.kind) ? 0.0 : p.soft_stop(event.side).stiffness;
+  const Side stop = opening.is_of_soft_stop() ? soft_stop_at_halt(scene, event) : event.side;
+  const double of_stop = halts(event.kind) && !opening.is_of_soft_stop() ? 0.0 : p.soft_stop(stop).stiffness;
   const double rate = std::max(p.oscillator.frequency, std::sqrt(std::abs(p.oscillator.stiffness) + of_stop));
   for (const double turned_by : {1e-3, 1e-2, 1e-4, 1e-5, 1e-6, 1e-7}) {
     const auto lasting =
         with_lasting(equations, scene, orbit, opening, p.oscillator.frequency / rate * turned_by, tolerance);
     if (!lasting) continue;
     const OrbitEquations there = equations(lasting->orbit, {});
-    Vector longer(there.unknowns(), 0.0);
-    longer[there.phase_of(lasting->first)] = -1;
-    longer[there.phase_of((lasting->first + 1) % lasting->orbit.size())] = 1;
-    if (auto along = tangent(there, lasting->at, longer)) return Opened{lasting->orbit, lasting->at, *std::move(along)};
+    if (auto along = tangent(there, lasting->at, growth(there, opening, lasting->first)))
+      return Opened{lasting->orbit, lasting->at, *std::move(along)};
   }
   return std::nullopt;
 }
@@ -185,7 +226,8 @@ std::optional<Opened> opened_once(const Equations& equations, const FollowedScen
 std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
                              const Opening& opening, double tolerance) {
   // a stop that the mass comes to strike has its mirror image elsewhere
-  const auto half = opening.kind == Kind::rebound ? std::nullopt : half_of_free_slips(scene, orbit);
+  const bool on_stop = opening.kind == Kind::rebound || opening.is_of_soft_stop();
+  const auto half = on_stop ? std::nullopt : half_of_free_slips(scene, orbit);
   if (!half) return opened_once(equations, scene, orbit, opening, tolerance);
   const auto begun = opened_once(equations, scene, *half, {opening.kind, opening.event % half->size()}, tolerance);
   if (!begun) return std::nullopt;

@@ -14,10 +14,15 @@ struct Opening {
     contact,  ///< a contact with a soft stop, or the interruption of one, at the event that grazes
     rebound,  ///< an impact on the stop on which the mass comes to stick, and a short slip back before it sticks
     turn,     ///< a reversal where it comes to stick, and likewise
-    release   ///< an early release from a stick the other way, and a short slip before the mass sticks again
+    release,  ///< an early release from a stick the other way, and a short slip before the mass sticks again
+    within,   ///< a halt on the position of a soft stop comes to lie beyond it
+    outside   ///< or before it: then the contact with the stop, to that halt or from it on, vanishes, or another begins
   };
   Kind kind = Kind::contact;
   std::size_t event = 0;
+
+  /// Whether it is of a halt on the position of a soft stop.
+  [[nodiscard]] bool is_of_soft_stop() const { return kind == Kind::within || kind == Kind::outside; }
 };
 
 /// An orbit in which that has begun, as if its slip, or the contact or interruption, lasted for `advance` of the phase.

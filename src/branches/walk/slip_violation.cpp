@@ -28,46 +28,77 @@ template <Effects E>
 std::optional<Violation> at_halt(const Flights<double, E>& flights, const Orbit& orbit, std::size_t i) {
   using enum Violation::Kind;
   const OrbitEvent& halt = orbit.events[i];
-  const auto holds = [&](Side side) { return flights.left_to_level(halt.place, halt.phase, side) >= 0; };
-  const auto release = [&](Side side) { return flights.hold(halt.place, halt.phase, side); };
+  const Standing<double> at = standing_at(halt);
+  if (flights.soft_stop_around(at.place) != at.held_by) return Violation{pulls, i, {}};
+  const auto holds = [&](Side side) { return flights.left_to_level(at, side) >= 0; };
+  const auto release = [&](Side side) { return flights.hold(at, side); };
   const Side before = orbit.heading_before(i), other = opposite(halt.side);
   if (halt.kind == Event::Kind::reversal)
     return holds(halt.side) ? std::optional(Violation{sticks, i, {}}) : std::nullopt;
   if (!holds(halt.side) || !holds(other)) return Violation{slips, i, {}};
   if (release(halt.side) == std::numeric_limits<double>::infinity()) return Violation{stays, i, {}};
-  if (!(sign_of(before) * flights.acceleration(halt.place, halt.phase, before) <= 0)) return Violation{runs_on, i, {}};
+  if (!(sign_of(before) * flights.acceleration(at, before) <= 0)) return Violation{runs_on, i, {}};
   return release(other) < release(halt.side) ? std::optional(Violation{slips, i, {}}) : std::nullopt;
 }
 
-/// Whether a flight meets the stop ahead, or halts, at its end and not before.
+/// The margins of a flight that goes one way: the gap to the stop ahead, the velocity, and in contact with a soft stop
+/// the force of that, or the pull that there would be beyond the position of one with a damper.
+template <class A>
+std::array<Margin, 3> margins_of(const SceneNumbers<double>& p, const A& arc, const Flight<double>& flight) {
+  const double sign = sign_of(flight.heading());
+  const Margin none{1.0, 0.0, 0.0}, velocity{0.0, 0.0, sign};
+  const Side pressed = flight.pressed();
+  const bool leaves = flight.leaves == Event::Kind::separation && p.soft_stop(flight.from).damping != 0;
+  Margin gap{sign * (p.position(flight.heading()) - arc.anchor()), -sign, 0.0}, force = none;
+  if (pressed != Side::none) gap = none;
+  if (pressed != Side::none || leaves) {
+    const motion::SoftStop<double> stop = p.soft_stop(leaves ? flight.from : pressed);
+    const double into = leaves ? -stop.into(1.0) : stop.into(1.0);
+    force = {into * (arc.anchor() - stop.position), into, into * stop.relaxation()};
+  }
+  return {gap, velocity, force};
+}
+/// The margin that falls to 0 at an event.
+std::size_t margin_at(Event::Kind kind) {
+  return halts(kind) ? 1 : kind == Event::Kind::separation || kind == Event::Kind::renewal ? 2 : 0;
+}
+
+/// Whether a flight meets the stop ahead, or halts, or the force of a soft stop falls to 0 or rises from it, at its end
+/// and not before.
 template <Effects E>
 std::optional<Violation> in_flight(const Flights<double, E>& flights, const Orbit& orbit, std::size_t i) {
   const Flight<double> flight = detail::flight_of<double>(orbit, i);
   const SceneNumbers<double>& p = flights.parameters();
-  const Side ahead = orbit.events[i].heading();
-  const double sign = sign_of(ahead), start = flights.start(flight), nu = p.oscillator.frequency,
-               length = (flight.end - start) / nu;
-  if (!(length > 0)) return Violation{Violation::Kind::slips, i, {}};
-  if (flight.arrives == Event::Kind::stick && length * nu < shortest)
+  const Side ahead = flight.heading();
+  const double start = flights.start(flight), nu = p.oscillator.frequency, length = (flight.end - start) / nu;
+  if (!(length > 0))
+    return Violation{flight.may_vanish(p) ? Violation::Kind::ends_early : Violation::Kind::slips, i, {}};
+  if (flight.arrives == Event::Kind::stick && !is_of_soft_stop(flight.leaves) && length * nu < shortest)
     return Violation{Violation::Kind::vanishes, i, {}};
   return flights.with_arc(flight, [&](const auto& arc) -> std::optional<Violation> {
-    const Margin gap{sign * (p.position(ahead) - arc.anchor()), -sign, 0.0}, velocity{0.0, 0.0, sign};
-    const auto crossing = motion::first_crossing(arc, std::array{gap, velocity}, length);
+    const std::array<Margin, 3> margins = margins_of(p, arc, flight);
+    const auto crossing = motion::first_crossing(arc, margins, length);
     const motion::Motion<double>& m = crossing.motion;
-    if (crossing.resolved && crossing.margin == 2) return std::nullopt;
-    const bool meets = crossing.margin == 0;
-    if (crossing.resolved && meets != halts(flight.arrives) &&
-        is_at_end(crossing.elapsed, length, meets ? m.x : m.v, meets ? m.v : m.a, nu))
+    if (crossing.resolved && crossing.margin == margins.size()) return std::nullopt;
+    const bool stands = crossing.margin == 1;
+    if (crossing.resolved && crossing.margin == margin_at(flight.arrives) &&
+        is_at_end(crossing.elapsed, length, stands ? m.v : m.x, stands ? m.a : m.v, nu))
       return std::nullopt;
-    if (meets) return Violation{Violation::Kind::passes_through, i, {ahead, flight.end, 0.0}};
-    const double turn = turning_time(arc, velocity, crossing.elapsed);
+    if (crossing.margin == 0) return Violation{Violation::Kind::passes_through, i, {ahead, flight.end, 0.0}};
+    const double turn = turning_time(arc, margins.at(std::min<std::size_t>(crossing.margin, 2)), crossing.elapsed);
+    const double v = arc.at(turn).v, place = static_cast<double>(arc.at(turn).x) - p.middle();
+    const Side pressed = flight.pressed();
+    if (!stands) {
+      const bool contact = pressed != Side::none;
+      return Violation{
+          Violation::Kind::passes_through,
+          i,
+          {opposite(ahead), start + nu * turn, v, contact ? Event::Kind::renewal : Event::Kind::separation}};
+    }
     // beside a graze the velocity and the way to the stop fall to 0 at once: the impact has no speed
-    if (flight.arrives == Event::Kind::impact && turn > length)
-      return Violation{Violation::Kind::pulls, (i + 1) % orbit.size(), {}};
+    if (!halts(flight.arrives) && turn > length) return Violation{Violation::Kind::pulls, (i + 1) % orbit.size(), {}};
     return Violation{
-        Violation::Kind::halts,
-        i,
-        {ahead, start + nu * turn, 0.0, Event::Kind::stick, 0.0, static_cast<double>(arc.at(turn).x) - p.middle()}};
+        Violation::Kind::halts, i, {ahead, start + nu * turn, 0.0, Event::Kind::stick, 0.0, place, {}, pressed}};
   });
 }
 
@@ -86,17 +117,18 @@ bool ceases(const Flights<double, E>& flights, const Orbit& orbit) {
 std::vector<Violation> slip_violations(const FollowedScene& scene, const Orbit& orbit,
                                        std::optional<std::size_t> grazing) {
   std::vector<Violation> found;
+  const SceneNumbers<double> p = numbers_of<double>(scene);
   const auto add = [&](const std::optional<Violation>& violation) {
-    if (violation) found.push_back(*violation);
+    if (violation) found.push_back(told_apart(p, orbit, *violation));
   };
   with_arcs(scene, [&]<Effects E>() {
-    const Flights<double, E> flights{numbers_of<double>(scene)};
+    const Flights<double, E> flights{p};
     if (ceases(flights, orbit)) found.push_back({Violation::Kind::ceases, 0, {}});
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const OrbitEvent& event = orbit.events[i];
       if (i == grazing) continue;
-      if (!halts(event.kind) && !(sign_of(event.side) * event.before > 0))
-        found.push_back({Violation::Kind::pulls, i, {}});
+      if (!halts(event.kind) && !(sign_of(event.side) * (event.is_contact() ? event.before : -event.before) > 0))
+        add(Violation{Violation::Kind::pulls, i, {}});
       if (halts(event.kind)) add(at_halt(flights, orbit, i));
     }
     for (std::size_t i = 0; i < orbit.size(); ++i) add(in_flight(flights, orbit, i));

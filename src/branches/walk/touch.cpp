@@ -56,7 +56,9 @@ Touch touch_of(const OrbitEquations& equations, const Narrowed& between) {
   touch.event = found.event;
   touch.appears = found.kind == Violation::Kind::passes_through;
   touch.turns = found.kind == Violation::Kind::pulls && presses(touch.orbit.events[touch.event].kind);
-  touch.halts = has_friction(equations.scene_at(between.beyond.at).friction);
+  touch.halts = has_friction(equations.scene_at(between.beyond.at).friction) &&
+                found.kind != Violation::Kind::ends_early &&
+                is_impact(touch.appears ? found.turning.kind : touch.orbit.events[touch.event].kind);
   if (touch.appears && touch.halts) {
     touch.event = (found.event + 1) % touch.orbit.size();
     OrbitEvent& halt = touch.orbit.events[touch.event];
@@ -82,7 +84,8 @@ std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& w
 Orbit halting_at_stop(const FollowedScene& scene, Orbit orbit, std::size_t event) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
   OrbitEvent& halt = orbit.events[event];
-  halt = {opposite(halt.side), halt.phase, 0.0, Event::Kind::reversal, 0.0, p.position(halt.side) - p.middle()};
+  const double place = p.position(halt.side) - p.middle();
+  halt = {opposite(halt.side), halt.phase, 0.0, Event::Kind::reversal, 0.0, place, {}, Side::none};
   return orbit;
 }
 

@@ -10,6 +10,28 @@
 #include "motion/contact.hpp"
 
 namespace clatter::branches {
+
+Violation told_apart(const SceneNumbers<double>& p, const Orbit& orbit, const Violation& found) {
+  constexpr double about = 1e-6;  // rad: the force turns at about its square
+  const auto vanishes = [&](std::size_t i) {
+    const Flight<double> flight = detail::flight_of<double>(orbit, i);
+    return flight.may_vanish(p) && flight.end - flight.begin < about;
+  };
+  if (found.kind == Violation::Kind::pulls) {
+    // a damper lets go of the mass once it stands, but for rounding, if it has hardly touched it
+    const bool separates = orbit.events[found.event].kind == Event::Kind::separation;
+    const std::size_t i = separates ? (found.event + orbit.size() - 1) % orbit.size() : found.event;
+    return vanishes(i) ? Violation{Violation::Kind::ends_early, i, {}} : found;
+  }
+  if (is_impact(found.turning.kind)) return found;
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const Flight<double> flight = detail::flight_of<double>(orbit, i);
+    const double distance = std::remainder(found.turning.phase - flight.begin, orbit.advance());
+    if (vanishes(i) && std::abs(distance) < 2 * about) return {Violation::Kind::ends_early, i, {}};
+  }
+  return found;
+}
+
 namespace {
 
 /// A flight that is looked at: the event that it begins with, and its end.
@@ -93,28 +115,6 @@ std::optional<Violation> free_within(const SceneNumbers<double>& p, const motion
 bool points_right(const OrbitEvent& event) {
   const double into = sign_of(event.side) * event.before;
   return event.is_contact() ? into > 0 : into < 0;
-}
-
-/// Where two events of a soft stop are about to vanish, the proof may find a third one beside them: it is theirs.
-Violation told_apart(const SceneNumbers<double>& p, const Orbit& orbit, const Violation& found) {
-  constexpr double about = 1e-6;  // rad: the force turns at about its square
-  const auto vanishes = [&](std::size_t i) {
-    const Flight<double> flight = detail::flight_of<double>(orbit, i);
-    return flight.may_vanish(p) && flight.end - flight.begin < about;
-  };
-  if (found.kind == Violation::Kind::pulls) {
-    // a damper lets go of the mass once it stands, but for rounding, if it has hardly touched it
-    const bool separates = orbit.events[found.event].kind == Event::Kind::separation;
-    const std::size_t i = separates ? (found.event + orbit.size() - 1) % orbit.size() : found.event;
-    return vanishes(i) ? Violation{Violation::Kind::ends_early, i, {}} : found;
-  }
-  if (is_impact(found.turning.kind)) return found;
-  for (std::size_t i = 0; i < orbit.size(); ++i) {
-    const Flight<double> flight = detail::flight_of<double>(orbit, i);
-    const double distance = std::remainder(found.turning.phase - flight.begin, orbit.advance());
-    if (vanishes(i) && std::abs(distance) < 2 * about) return {Violation::Kind::ends_early, i, {}};
-  }
-  return found;
 }
 
 /// Motion without events.

@@ -29,6 +29,9 @@ struct Violation {
                           ///< velocity, as a stick; at_once: where the flight would turn
 };
 
+/// Where two events of a soft stop are about to vanish, the proof may find a third one beside them: it is theirs.
+[[nodiscard]] Violation told_apart(const SceneNumbers<double>& p, const Orbit& orbit, const Violation& found);
+
 /// The first violation of an orbit, by the proof of first contact on each of its flights, and by that of the first sign
 /// change of a soft stop's force; nothing: it is a motion. The event `grazing` may be without speed.
 [[nodiscard]] std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbit,
