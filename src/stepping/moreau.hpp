@@ -251,7 +251,7 @@ class Moreau : public StepVelocities<E> {
     const double w = from.w + (load * step.length - (step.v - state.v));
     const Side wall = step.hits(state.v) ? Side::none : Base::active_wall(walls(), from, step.length);
     if (wall != Side::none && sign_of(wall) * w > sign_of(wall) * walls().rule.law(wall).after(from.w)) {
-      if (from.w != 0) return meet_wall(both, mass, stage, step, from.w, w, turns, wall, load);
+      if (from.w != 0) return meet_wall(both, mass, stage, turns, step, {wall, from.w, w, load});
       press(stage, wall);
       return perform(both, stage, this->step_of(both, state, turns), {.as_one = true});
     }
@@ -279,23 +279,27 @@ class Moreau : public StepVelocities<E> {
     });
   }
 
-  /// Moves with the velocities before the impulse of a wall until it acts, and with those after it from there. `w`: z'
-  /// at the beginning of the step, and without that impulse at its end.
+  /// A loose mass that meets a wall within a step: z' at its beginning, and at its end without the wall; y''.
+  struct Meeting {
+    Side wall;
+    double w, w_free, load;
+  };
+  /// Moves with the velocities before the impulse of a wall until it acts, and with those after it from there. `alone`:
+  /// the step of the main mass without that impulse.
   template <class Both, class Mass, class Stage>
-  [[nodiscard]] bool meet_wall(const Both& both, const Mass& mass, Stage& stage, const Step& alone, double w,
-                               double w_free, double turns, Side wall, double load) {
+  [[nodiscard]] bool meet_wall(const Both& both, const Mass& mass, Stage& stage, double turns, const Step& alone,
+                               const Meeting& meeting) {
     State& state = stage.state;
+    const Side wall = meeting.wall;
+    const double w = meeting.w, load = meeting.load;
     const int sign = sign_of(wall);
-    const double before = sign * w > 0 ? w : w_free;  // leaving too slowly: pushed back by the forces
+    const double before = sign * w > 0 ? w : meeting.w_free;  // leaving too slowly: pushed back by the forces
     const double rebound = walls().rule.law(wall).after(before), until = this->until_impulse(alone);
     const double a = alone.holds(state.v) ? 0.0 : this->force(mass.constants(), state.x, state.v, alone.sine);
     const bool flies = -2 * sign * rebound > sign * (load - a) * alone.length && sign * w > 0;
     const double after = flies ? rebound + 0.0 : 0.0;
     const Step struck = this->step_of(both, state, turns, walls().rule.share() * (w - after));
-    if (alone.holds(state.v))
-      hold(mass, stage, alone, until, {w, load});
-    else
-      drift(mass, stage, until, {w, load});
+    alone.holds(state.v) ? hold(mass, stage, alone, until, {w, load}) : drift(mass, stage, until, {w, load});
     const auto there = modes::loose_start_of(*this, state);
     const bool affordable = strike(stage, wall, before, after, struck.free);
     if (flies)
@@ -304,10 +308,8 @@ class Moreau : public StepVelocities<E> {
       press(stage, wall);
     const auto go_on = [&](const auto& of) {
       const Beside then{after, load, !flies};
-      if (struck.stands)
-        hold(of, stage, struck, alone.length - until, then);
-      else
-        drift(of, stage, alone.length - until, then);
+      const double left = alone.length - until;
+      struck.stands ? hold(of, stage, struck, left, then) : drift(of, stage, left, then);
     };
     flies ? go_on(mass) : go_on(both);
     this->sine_ = alone.sine;
