@@ -150,24 +150,12 @@ void check_branch(const Settings& settings) {
 
 /// Keys that don't know a loose mass.
 void check_uses(const Settings& settings) {
-  const Own own = own_of(settings);
   check_branch(settings);
-  const auto refuse_own = [](const Own& of_main, const std::string& beside, const std::string& way_out) {
-    if (of_main.place != nullptr)
-      fail(*of_main.place, of_main.name + " conflicts with " + beside + " beside 'loose_mass'; " + way_out);
-  };
-  const Own rubbing = loose_friction_of(settings);
-  for (const Own& rough : {friction_of(settings), rubbing})
-    if (settings.find("observe", "attractor") != nullptr && settings.flag("observe", "attractor"))
-      refuse_own(rough, "'attractor'", "leave that out, and take word = true");
-  for (const Own& other : {own, rubbing})
-    if (settings.text("integrator", "method") == "moreau")
-      refuse_own(other, "method = \"moreau\"", "take \"exact\" or \"dopri5\"");
-  if (settings.find("observe", "stability") != nullptr && settings.flag("observe", "stability"))
-    refuse_own(rubbing, "'stability'", "leave that out");
-  if (const Setting* const names = settings.find("observe", "sensitivity");
-      names != nullptr && !settings.text("observe", "sensitivity").empty())
-    refuse_own(rubbing, "'sensitivity'", "leave that out, and run with neighbouring values");
+  if (settings.text("integrator", "method") != "moreau") return;
+  for (const Own& own : {own_of(settings), loose_friction_of(settings)})
+    if (own.place != nullptr)
+      fail(*own.place,
+           own.name + " conflicts with method = \"moreau\" beside 'loose_mass'; take \"exact\" or \"dopri5\"");
 }
 
 }  // namespace
