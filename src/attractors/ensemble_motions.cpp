@@ -37,10 +37,12 @@ Motion stuck(const point::Problem& problem, const SectionState& state, Side cree
 
 /// The edge of the band at which a mass stands: it has crept there, or started there.
 Side edge_under(const Scene& scene, const SectionState& state) {
-  return has_friction(scene.friction) && state.v == 0 ? band_edge_at(scene, state.x) : Side::none;
+  const bool may_creep = has_friction(scene.friction) && !has_loose_mass(scene.loose) && state.v == 0;
+  return may_creep ? band_edge_at(scene, state.x) : Side::none;
 }
 
-/// Whether no wall meets a loose mass for as long as a motion is looked at: what then moves is the main mass alone.
+/// Whether no wall meets a loose mass for as long as a motion is looked at: what then moves is the main mass alone,
+/// unless that rubs.
 bool floats_for_long(const point::Problem& problem, const SectionState& state) {
   if (!has_loose_mass(problem.loose)) return false;
   for (const std::size_t look : {VisitedCells::short_look, VisitedCells::at_once}) {
@@ -59,7 +61,7 @@ std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& prob
     const auto known = passing(state);
     return known ? known : add(stuck(problem, state, edge));
   }
-  if (state.v == 0 && sticks_for_good(problem, state.x)) return band_ ? band_ : add(stuck(problem, state));
+  if (stands_for_good(problem, state)) return band_ ? band_ : add(stuck(problem, state));
   if (problem.oscillator.forcing == 0) {
     if (const auto known = passing(state)) return known;
     return add({.periodic = standstill(problem, state.x), .state = state});
@@ -78,7 +80,7 @@ void EnsembleMotions::restore(const point::Problem& problem, const Ending& endin
   Motion motion{.state = ending.state};
   if (const Side edge = edge_under(problem, ending.state); edge != Side::none) {
     motion = stuck(problem, ending.state, edge);
-  } else if (ending.state.v == 0 && sticks_for_good(problem, ending.state.x)) {
+  } else if (stands_for_good(problem, ending.state)) {
     motion = stuck(problem, ending.state);
   } else if (problem.oscillator.forcing == 0) {
     motion.periodic = standstill(problem, ending.state.x);
@@ -86,9 +88,10 @@ void EnsembleMotions::restore(const point::Problem& problem, const Ending& endin
     motion.periodic = periodic_motion(problem, ending.state, static_cast<std::size_t>(ending.periods));
   } else {
     motion.floats = floats_for_long(problem, ending.state);
-    const point::Problem its = motion.floats ? without_loose_mass(problem) : problem;
-    if (motion.floats) motion.state = {ending.state.x, ending.state.v};
-    if (const auto sections = run_sections(started(its, motion.state, 0.0), VisitedCells::long_look)) {
+    const point::Problem its = motion.floats ? floating(problem) : problem;
+    if (!has_loose_mass(its.loose)) motion.state = {ending.state.x, ending.state.v};
+    if (auto sections = run_sections(started(its, motion.state, 0.0), VisitedCells::long_look)) {
+      if (motion.floats) forget_places(sections->states);
       motion.cells = VisitedCells(sections->states);
       motion.symmetric = is_symmetric(its) && visits_mirror(its, motion);
     }
@@ -121,7 +124,8 @@ std::optional<std::size_t> EnsembleMotions::visiting(std::span<const SectionStat
 
 std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& problem, const SectionState& state) {
   if (!floats_for_long(problem, state)) return aperiodic_of(problem, state, false);
-  return aperiodic_of(without_loose_mass(problem), {state.x, state.v}, true);
+  const point::Problem its = floating(problem);
+  return aperiodic_of(its, has_loose_mass(its.loose) ? state : SectionState{state.x, state.v}, true);
 }
 
 /// A short look tells most motions from those that are known, a long one those that stay in a part of the cells for
@@ -130,8 +134,9 @@ std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& p
                                                          bool floats) {
   const bool has_known = std::ranges::any_of(motions_, [](const Motion& motion) { return !motion.periodic; });
   if (has_known) {
-    const auto sections = run_sections(started(problem, state, 0.0), VisitedCells::short_look);
+    auto sections = run_sections(started(problem, state, 0.0), VisitedCells::short_look);
     if (!sections) return std::nullopt;
+    if (floats) forget_places(sections->states);
     if (const auto known = visiting(sections->states, floats)) return known;
   }
   std::vector<SectionState> states;
@@ -139,7 +144,7 @@ std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& p
   SectionState last = state;
   bool may_repeat = true;
   while (states.size() < (has_known ? longest_look_ : VisitedCells::long_look)) {
-    const auto sections = run_sections(started(problem, last, 0.0), VisitedCells::at_once);
+    auto sections = run_sections(started(problem, last, 0.0), VisitedCells::at_once);
     if (!sections) return std::nullopt;
     last = sections->states.back(), log_area += sections->log_area;
     if (may_repeat && sections->repeats_after > 0) {
@@ -149,6 +154,7 @@ std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& p
       }
       may_repeat = false;  // by rounding alone, and so it would again
     }
+    if (floats) forget_places(sections->states);
     if (const auto known = visiting(sections->states, floats)) return known;
     states.insert(states.end(), sections->states.begin(), sections->states.end());
   }
@@ -162,10 +168,11 @@ std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& p
 bool EnsembleMotions::visits_mirror(const point::Problem& problem, const Motion& motion) const {
   std::optional<SectionState> last = mirrored(problem, motion.state);
   for (std::size_t look = 0; last && look < longest_look_; look += VisitedCells::at_once) {
-    const auto sections = run_sections(started(problem, *last, 0.0), VisitedCells::at_once);
+    auto sections = run_sections(started(problem, *last, 0.0), VisitedCells::at_once);
     if (!sections || sections->repeats_after > 0) return false;
-    if (motion.cells.are_visited_by(sections->states)) return true;
     last = sections->states.back();
+    if (motion.floats) forget_places(sections->states);
+    if (motion.cells.are_visited_by(sections->states)) return true;
   }
   return false;
 }

@@ -66,7 +66,8 @@ point::Problem started(point::Problem problem, const SectionState& state, double
   return problem;
 }
 
-point::Problem without_loose_mass(point::Problem problem) {
+point::Problem floating(point::Problem problem) {
+  if (has_loose_friction(problem.loose)) return problem;
   problem.loose = {};
   problem.given.reset();  // which has it
   return problem;
@@ -97,20 +98,28 @@ std::optional<Round> run_round(const point::Problem& problem, std::size_t period
   return round;
 }
 
+motion::LooseJacobian Round::derivative_in_housing() const {
+  motion::LooseJacobian map = *derivative;
+  if (!meets_walls) map[2] = map[0];
+  return map;
+}
+
 SectionState newton_step(const Round& round) {
   if (!round.derivative) {
     const motion::Perturbation step = steady::newton_step(round.orbit.derivative(), round.orbit.gap());
     return {step.x, step.v};
   }
-  const SectionState gap = round.gap();
-  const auto step = motion::change_of_fixed_point(*round.derivative, {gap.x, gap.v, gap.x + gap.z, gap.v + gap.w});
+  SectionState gap = round.gap();
+  if (!round.meets_walls) gap.z = 0;
+  const auto step =
+      motion::change_of_fixed_point(round.derivative_in_housing(), {gap.x, gap.v, gap.x + gap.z, gap.v + gap.w});
   const motion::LooseState<double>& loose = round.orbit.states[round.orbit.periods].loose;
-  if (loose.pressed) return {step[0], step[1], gap.z, gap.w};  // it stays on its wall
-  return {step[0], step[1], step[2] - step[0], step[3] - step[1]};
+  if (loose.pressed && loose.place == 0) return {step[0], step[1], gap.z, gap.w};  // it stays on its wall
+  return {step[0], step[1], round.meets_walls ? step[2] - step[0] : 0, loose.pressed ? 0 : step[3] - step[1]};
 }
 
 double spectral_radius(const Round& round) {
-  return round.derivative ? std::abs(motion::multipliers_of(*round.derivative)[0])
+  return round.derivative ? std::abs(motion::multipliers_of(round.derivative_in_housing())[0])
                           : steady::spectral_radius(round.orbit.derivative());
 }
 
@@ -137,7 +146,7 @@ std::optional<Sections> run_sections(const point::Problem& problem, std::size_t 
     if (motion->advance_to_section(state, state.periods, recorder) != stepping::Outcome::completed) return std::nullopt;
     const double log_area = recorder.watch.passage().log_area - 2 * problem.oscillator.damping * motion->period();
     sections.log_area += log_area;
-    sections.meets_walls = sections.meets_walls || recorder.watch.passage().loose_size > 0 || state.loose.pressed;
+    sections.meets_walls = sections.meets_walls || recorder.watch.passage().meets_wall;
     sections.states.push_back(section_of(problem, state));
     sections.repeats_after = repeat.add(sections.states.back(), log_area, recorder.watch.passage());
   }

@@ -17,8 +17,9 @@ namespace clatter::attractors {
 /// A problem that starts from another state, at another phase of the force or of the shaking (rad).
 [[nodiscard]] point::Problem started(point::Problem problem, const SectionState& state, double phase);
 
-/// A problem of the main mass alone.
-[[nodiscard]] point::Problem without_loose_mass(point::Problem problem);
+/// The problem of a loose mass that no wall meets: that of the main mass alone, unless friction in the housing draws
+/// it.
+[[nodiscard]] point::Problem floating(point::Problem problem);
 
 /// A motion over some forcing periods with its derivative and its contacts.
 struct Round {
@@ -31,6 +32,8 @@ struct Round {
   std::optional<motion::LooseJacobian> derivative{};  ///< with a loose mass, of (x, x', y, y')
 
   [[nodiscard]] SectionState gap() const { return difference(states.front(), states.back()); }
+  /// The same of a loose mass that rubs: if it meets no wall it may be anywhere, and its place stays what it is.
+  [[nodiscard]] motion::LooseJacobian derivative_in_housing() const;
 };
 
 /// The step of Newton's method from the beginning of a round towards a state that it brings back.

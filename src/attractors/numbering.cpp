@@ -278,8 +278,7 @@ class Numberer {
     const std::size_t ensemble = instances_[instance].ensemble;
     const EnsembleMotions motions = found_again(ensemble);
     const Motion& motion = motions.motions()[instance - begins_[ensemble]];
-    const point::Problem problem =
-        motion.floats ? without_loose_mass(parameters_of(ensemble)) : parameters_of(ensemble);
+    const point::Problem problem = motion.floats ? floating(parameters_of(ensemble)) : parameters_of(ensemble);
     const auto state = mirrored(problem, instances_[instance].state);
     if (!state) return std::nullopt;
     std::optional<std::size_t> met;
@@ -287,7 +286,8 @@ class Numberer {
       met = motions.passing(*state);
     } else if (motion.symmetric) {
       return instance;
-    } else if (const auto sections = run_sections(started(problem, *state, 0.0), VisitedCells::long_look)) {
+    } else if (auto sections = run_sections(started(problem, *state, 0.0), VisitedCells::long_look)) {
+      if (motion.floats) forget_places(sections->states);
       met = motions.visiting(sections->states, motion.floats);
     }
     return met ? std::optional(begins_[ensemble] + static_cast<std::uint32_t>(*met)) : std::nullopt;

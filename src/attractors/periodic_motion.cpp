@@ -72,8 +72,9 @@ steady::ObservedTime decided(const point::Problem& problem, const steady::MapOrb
 
 bool PeriodicMotion::passes(const SectionState& state) const {
   return std::ranges::any_of(cycle, [&](const SectionState& own) {
-    const SectionState apart = difference(own, state);
-    return (floats ? larger_of(apart.x, apart.v) : size_of(apart)) <= same_motion * size;
+    SectionState apart = difference(own, state);
+    if (floats) apart.z = 0, apart.w = rubs ? apart.w : 0;
+    return size_of(apart) <= same_motion * size;
   });
 }
 
@@ -94,6 +95,7 @@ std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, Sec
                                               double phase) {
   const std::optional<Round> first = run_round(started(problem, state, phase), periods);
   if (!first) return std::nullopt;
+  const bool rubs = has_loose_friction(problem.loose);
   if (!has_loose_mass(problem.loose)) {
     const steady::ObservedTime exact = decided(problem, first->orbit, phase);
     if (exact.status != steady::Status::periodic) return std::nullopt;
@@ -102,8 +104,8 @@ std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, Sec
           run_round(started(problem, {exact.from.x, exact.from.v}, phase), exact.sections.size(), exact.sections);
       return round ? std::optional(described(problem, *round)) : std::nullopt;
     }
-  } else if (!first->meets_walls) {  // neutral, so that Newton's method has no way to go
-    auto motion = periodic_motion(without_loose_mass(problem), {state.x, state.v}, periods, phase);
+  } else if (!first->meets_walls && !rubs) {  // neutral, so that Newton's method has no way to go
+    auto motion = periodic_motion(floating(problem), {state.x, state.v}, periods, phase);
     if (!motion) return std::nullopt;
     motion->floats = true;
     for (std::size_t i = 0; i < motion->cycle.size(); ++i)
@@ -120,7 +122,9 @@ std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, Sec
     if (!again) return std::nullopt;
     round = *again;
   }
-  return described(problem, round);
+  PeriodicMotion motion = described(problem, round);
+  motion.rubs = rubs, motion.floats = rubs && !round.meets_walls;
+  return motion;
 }
 
 PeriodicMotion standstill(const point::Problem& problem, double x) {

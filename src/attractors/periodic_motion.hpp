@@ -21,7 +21,8 @@ struct PeriodicMotion {
   double middle_of_flight = 0.0;  ///< of the longest one, in forcing periods from cycle[0] on
   bool contracts = false;         ///< it shrinks areas of states: else it is one of a family, and no attractor
   bool floats = false;            ///< no wall meets a loose mass, here or anywhere in a band of its housing: it is
-                                  ///< the motion of the main mass alone
+                                  ///< the motion of the main mass alone,
+  bool rubs = false;              ///< or one whose friction is the same at all of these places
 
   /// Whether a state at forcing phase 0 is one of its own.
   [[nodiscard]] bool passes(const SectionState& state) const;

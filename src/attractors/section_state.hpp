@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "motion/state.hpp"
 #include "motion/walls.hpp"
@@ -35,6 +36,11 @@ struct SectionState : PhasePoint {
   return {to.x - from.x, to.v - from.v, to.z - from.z, to.w - from.w};
 }
 
+/// A loose mass that no wall meets may be at any place of its housing.
+inline void forget_places(std::span<SectionState> states) {
+  for (SectionState& state : states) state.z = 0;
+}
+
 /// A state at which no stop is passed, and no wall of a loose mass.
 [[nodiscard]] inline bool is_inside(const Scene& scene, const SectionState& state) {
   const Stops stops = rigid_ones(scene.stops);  // a soft one may be passed
@@ -50,10 +56,22 @@ struct SectionState : PhasePoint {
           std::clamp(state.z, scene.loose.lower, scene.loose.upper), state.w};
 }
 
+/// Whether friction of the main mass holds it for good: away from rigid stops, with a loose mass that rests in the
+/// housing, too.
+[[nodiscard]] inline bool stands_for_good(Scene scene, const SectionState& state) {
+  const LooseMass& loose = scene.loose;
+  const double pull = loose.ratio * loose.load;
+  const bool is_on_wall = (state.z == loose.upper && pull > 0) || (state.z == loose.lower && pull < 0);
+  if (state.v != 0 || state.w != 0 || !(is_on_wall || std::abs(pull) <= loose.friction_static)) return false;
+  scene.oscillator.load += pull;
+  return sticks_for_good(scene, state.x);
+}
+
 /// Whether a loose mass can stay for ever where no wall meets it: in some places of its housing the steady motion of
-/// the main mass alone passes between the walls, and no force moves it from there. Beside stops the room that motion
-/// takes isn't looked at.
+/// the main mass alone passes between the walls, and no force moves it from there. Beside stops, and with friction in
+/// the housing, the room that motion takes isn't looked at.
 [[nodiscard]] inline bool may_float(const Scene& scene) {
+  if (has_loose_friction(scene.loose)) return true;
   if (!has_loose_mass(scene.loose) || scene.loose.load != 0) return false;
   if (has_events_of_its_own(scene)) return true;
   const PhasePoint response = response_at(scene.oscillator, 0.0, 1.0);

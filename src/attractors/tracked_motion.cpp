@@ -35,7 +35,9 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
                    .upper = mix(one.upper, other.upper),
                    .restitution_lower = mix(one.restitution_lower, other.restitution_lower),
                    .restitution_upper = mix(one.restitution_upper, other.restitution_upper),
-                   .load = mix(one.load, other.load)};
+                   .load = mix(one.load, other.load),
+                   .friction = mix(one.friction, other.friction),
+                   .friction_static = mix(one.friction_static, other.friction_static)};
   return problem;
 }
 
@@ -51,13 +53,13 @@ TrackedMotion::TrackedMotion(const point::Problem& problem, const Motion& motion
     : at_(problem), state_(motion.state), periods_(motion.periods()), symmetric_(motion.symmetric) {
   sticks_ = motion.sticks, creeps_to_ = motion.creeps_to;
   floats_ = motion.floats || (motion.periodic && motion.periodic->floats);
-  if (floats_) at_ = without_loose_mass(problem);
+  if (floats_) at_ = floating(problem);
   if (!motion.periodic) return;
   const PeriodicMotion& periodic = *motion.periodic;
   word_ = periodic.word, size_ = periodic.size;
   state_ = periodic.cycle[static_cast<std::size_t>(periodic.middle_of_flight)];
   phase_turns_ = periodic.middle_of_flight - std::floor(periodic.middle_of_flight);
-  if (floats_) state_.z = state_.w = 0;
+  if (!has_loose_mass(at_.loose)) state_.z = state_.w = 0;
   if (sticks_ || problem.oscillator.forcing == 0 || phase_turns_ == 0) return;
   const auto there = state_after(started(at_, state_, 0.0), phase_turns_);
   lost_ = !there;
@@ -66,11 +68,11 @@ TrackedMotion::TrackedMotion(const point::Problem& problem, const Motion& motion
 
 bool TrackedMotion::follow(const point::Problem& next) {
   if (lost_) return false;
-  const point::Problem to = floats_ ? without_loose_mass(next) : next;
+  const point::Problem to = floats_ ? floating(next) : next;
   bool followed = true;
   if (sticks_) {  // perhaps elsewhere in its band
-    if (!sticks_for_good(to, state_.x)) state_.x = equilibrium_of(to.oscillator);
-    followed = sticks_for_good(to, state_.x);
+    if (!stands_for_good(to, state_)) state_.x = equilibrium_of(to.oscillator);
+    followed = stands_for_good(to, state_);
   } else if (creeps_to_ != Side::none) {
     state_.x = edge_of_band(to, creeps_to_, state_.x).value_or(state_.x);
     followed = band_edge_at(to, state_.x) == creeps_to_;
@@ -82,11 +84,12 @@ bool TrackedMotion::follow(const point::Problem& next) {
   } else if (is_periodic()) {
     followed = follow_periodic(to);
   } else {
-    const auto sections = run_sections(started(to, moved_inside(to, state_), 0.0), VisitedCells::long_look);
+    auto sections = run_sections(started(to, moved_inside(to, state_), 0.0), VisitedCells::long_look);
     followed = sections && sections->repeats_after == 0;
     if (followed) {
       state_ = sections->states.back();
       states_ = sections->states;
+      if (floats_) forget_places(states_);
     }
   }
   at_ = to;
@@ -119,7 +122,7 @@ bool TrackedMotion::correct(const point::Problem& problem) {
   state_ = moved_inside(problem, state_);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const auto round = run_round(started(problem, state_, phase), periods_);
-    if (!round) return false;
+    if (!round || (floats_ && round->meets_walls)) return false;
     const SectionState step = newton_step(*round);
     const double length = size_of(step);
     if (length <= enough)

@@ -148,31 +148,13 @@ void check_branch(const Settings& settings) {
   check_followed(settings, "across", settings.find("branch", "across_range"));
 }
 
-/// Keys that don't know a loose mass.
-void check_uses(const Settings& settings) {
-  check_branch(settings);
-  const auto refuse_own = [](const Own& of_main, const std::string& beside, const std::string& way_out) {
-    if (of_main.place != nullptr)
-      fail(*of_main.place, of_main.name + " conflicts with " + beside + " beside 'loose_mass'; " + way_out);
-  };
-  const Own rubbing = loose_friction_of(settings);
-  for (const Own& rough : {friction_of(settings), rubbing})
-    if (settings.find("observe", "attractor") != nullptr && settings.flag("observe", "attractor"))
-      refuse_own(rough, "'attractor'", "leave that out, and take word = true");
-  if (settings.find("observe", "stability") != nullptr && settings.flag("observe", "stability"))
-    refuse_own(rubbing, "'stability'", "leave that out");
-  if (const Setting* const names = settings.find("observe", "sensitivity");
-      names != nullptr && !settings.text("observe", "sensitivity").empty())
-    refuse_own(rubbing, "'sensitivity'", "leave that out, and run with neighbouring values");
-}
-
 }  // namespace
 
 void check_loose_mass(const Settings& settings) {
   check_completeness(settings);
   if (settings.given(loose_mass) == nullptr) return;
   check_main_mass(settings);
-  check_uses(settings);
+  check_branch(settings);
 }
 
 void check_housing(const Settings& settings, const AxisGroups& groups) {

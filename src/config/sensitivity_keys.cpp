@@ -8,10 +8,10 @@
 namespace clatter::config {
 namespace {
 
-/// Whether a key is one of a machine with a loose mass, of whose main mass stops and friction are its own. Nothing
-/// shakes these.
+/// Whether a key is one of a machine with a loose mass, of whose main mass stops and friction are its own, and which
+/// may rub on its housing. Nothing shakes these.
 bool is_of_housed(const Settings& settings, Parameter parameter) {
-  if (parameter.is_loose() && parameter.role() == Role::friction) return false;
+  if (parameter.is_loose() && parameter.role() == Role::friction) return has_loose_friction(settings);
   if (!has_main_events(settings)) return !conflicts_with_loose_mass(parameter);
   if (parameter.role() == Role::friction) return has_friction_somewhere(settings);
   return parameter != "stop_amplitude" && parameter != "base_amplitude";
@@ -59,8 +59,10 @@ void check_given(const Settings& settings, const Setting& names, Parameter key) 
                                    : ", and the stops are given one by one; name 'stop_lower' or 'stop_upper'"));
   if (key == "quality" && !quantity_given(settings, key))
     fail(names.location, message + ", and the damping isn't given by it; name 'damping' or 'damping_ratio'");
-  if (key == "friction_static" && settings.given(key) == nullptr)
-    fail(names.location, message + ", which isn't given, so that it follows 'friction'; name that, or give it");
+  for (const std::string kinetic : {"friction", "loose_friction"})
+    if (key.key() == kinetic + "_static" && settings.given(key) == nullptr)
+      fail(names.location,
+           message + ", which isn't given, so that it follows " + in_quotes(kinetic) + "; name that, or give it");
   const Setting* const moved = settings.given("stop_amplitude");
   if (key.role() == Role::friction && moved != nullptr &&
       std::ranges::any_of(moved->numbers(), [](double amplitude) { return amplitude != 0; }))

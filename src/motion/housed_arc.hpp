@@ -21,6 +21,13 @@ template <class L>
     return loose.at(s).x;
 }
 
+/// The wall that presses a loose mass meanwhile; none if it flies, or friction alone holds it.
+template <class L>
+[[nodiscard]] Side wall_of(const L& loose) {
+  if constexpr (std::is_same_v<L, Pressed>) return loose.wall;
+  return Side::none;
+}
+
 /// The motion of a main mass along an arc, and meanwhile that of its loose mass: a `RelativeArc`, a
 /// `PolynomialInHousing`, or `Pressed`. Whoever asks only for the main mass takes it for that arc.
 template <class A, class L>

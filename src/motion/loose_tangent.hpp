@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "motion/event.hpp"
+#include "motion/housed_arc.hpp"
 #include "motion/linear_maps.hpp"
 #include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
@@ -16,29 +18,38 @@ namespace clatter::motion {
 /// The derivative of a motion with a loose mass with respect to its start: free motion of both masses over the arcs,
 /// and at each event S = D + (f+ - D f-) grad g / (grad g . f-), with the flows f- and f+ before and after it, the
 /// derivative D of the state after, and the guard g that it falls to 0 of (eq. 73 is that of an impact on a wall;
-/// Nordmark 1991). A press keeps nothing of z and z', a rest nothing of x and x'. It is kept times a power of two, so
-/// that nothing overflows.
+/// Nordmark 1991). A press keeps nothing of z and z', a stick in the housing nothing of z', a rest nothing of x and x'.
+/// Where friction in the housing stops the loose mass, or lets it go, no event tells so, but two arcs that differ; the
+/// velocities go on there, so that D = 1. It is kept times a power of two, so that nothing overflows.
 class LooseTangent {
  public:
-  explicit LooseTangent(const Scene& scene) : stops_(scene.stops), loose_(scene.loose), rule_(loose_) {}
+  explicit LooseTangent(const Scene& scene)
+      : stops_(scene.stops), loose_(scene.loose), rule_(loose_), is_rough_(has_loose_friction(loose_)) {}
 
   template <class A>
   void arc(const A& arc, double, double length) {
     const auto& constants = arc.constants();
     const auto start = arc.start();
-    settle(start.a, constants.carried != 0 ? start.a : loose_.load);
+    const bool carries = constants.carried != 0;
     const bool is_held = constants.h == 0 && constants.k == 0 && constants.f == 0 && constants.load == 0;
-    if (sticks_ && !is_held) release(start, constants.spring(1.0) / (constants.f * constants.nu * start.cosine));
+    const double a_loose = carries ? start.a : alone_on(arc);
+    if (is_rough_ && !std::exchange(is_told_, false)) change_hold(carries, a_loose, is_held);
+    settle(start.a, a_loose);
+    if (sticks_ && !is_held)
+      release(start.a, a_loose, constants.spring(1.0) / (constants.f * constants.nu * start.cosine));
+    if constexpr (Housed<A>) on_wall_ = wall_of(arc.loose) != Side::none;
+    const Row place = place_in_housing();
     const auto p = constants.propagator(length);
     const Row x = combined(p.a, map_[0], p.b, map_[1]), v = combined(-constants.spring(p.b), map_[0], p.c, map_[1]);
     map_[0] = x, map_[1] = v;
-    carried_ = constants.carried;
+    carried_ = constants.carried, alone_ = alone_on(arc), begun_ = true;
     if (carried_ != 0)
-      move_with_main(), loses_two_ = true;
+      move_with_main(place), lose(on_wall_ ? 2 : 1);
     else
       map_[2] = combined(1, map_[2], length, map_[3]);
     h_ = constants.h, k_ = constants.spring(1.0), friction_ = constants.friction;
     force_ = constants.force(arc.phase_after(length).sine);
+    if (is_rough_) note_end(arc, length, is_held);
     rescale();
   }
   void event(const Event& event) {
@@ -53,7 +64,7 @@ class LooseTangent {
       case Event::Kind::chatter:
         return rest();
       case Event::Kind::stick:
-        return stick();
+        return stick(event);
       case Event::Kind::strike:
         return strike(event.before, event.main);
       case Event::Kind::press:
@@ -75,8 +86,8 @@ class LooseTangent {
   /// The map without its power of two.
   [[nodiscard]] const LooseJacobian& mantissa() const { return map_; }
   [[nodiscard]] double exponent() const { return exponent_; }  ///< of two, a whole number
-  /// Whether a press or a rest has left no more than two numbers of a change.
-  [[nodiscard]] bool loses_two() const { return loses_two_; }
+  /// How many numbers of a change are lost at least: by a press or a rest two, by a stick in the housing one.
+  [[nodiscard]] std::size_t lost() const { return lost_; }
 
  private:
   using Row = Four<double>;
@@ -88,11 +99,40 @@ class LooseTangent {
   [[nodiscard]] double acceleration_alone(double x, double v, double friction) const {
     return (1 + carried_) * (acceleration(x, v) - friction) - carried_ * loose_.load;
   }
-  void move_with_main() { map_[2] = map_[0], map_[3] = map_[1]; }
+  /// The change of z, which a wall doesn't leave.
+  [[nodiscard]] Row place_in_housing() const { return on_wall_ ? Row{} : combined(1, map_[2], -1, map_[0]); }
+  void move_with_main(const Row& place) { map_[2] = combined(1, map_[0], 1, place), map_[3] = map_[1]; }
+  void lose(std::size_t numbers) { lost_ = std::max(lost_, numbers); }
+
+  /// y'' of a loose mass by itself.
+  template <class A>
+  [[nodiscard]] double alone_on(const A& arc) const {
+    if constexpr (Housed<A>)
+      if constexpr (requires { arc.loose.load(); }) return arc.loose.load();
+    return loose_.load;
+  }
+  /// What the end of an arc tells if friction in the housing has come to hold the loose mass, or no longer does so.
+  template <class A>
+  void note_end(const A& arc, double length, bool is_held) {
+    const auto end = arc.at(length);
+    end_ = {end.a, arc.constants().jerk(end), is_held};
+  }
+  /// Friction in the housing stops the loose mass, or turns it, where z' falls to 0, and lets it go where x'' passes
+  /// the level (eq. 81). A main mass that something holds goes as that turns, or lets the loose one go as it goes.
+  void change_hold(bool carries, double a_loose, bool is_held) {
+    if (carried_ == 0 && (carries || a_loose != alone_)) {
+      const double towards = end_.a - alone_;
+      expect(combined(1 / towards, map_[3], -1 / towards, map_[1]), end_.a, alone_);
+      sticks_ = sticks_ && is_held;
+    } else if (carried_ != 0 && !carries && !end_.is_held) {
+      expect(combined(k_ / end_.jerk, map_[0], 2 * h_ / end_.jerk, map_[1]), end_.a, end_.a);
+    }
+    is_told_ = false;
+  }
 
   /// An event that comes the later by `late` for each small change, after which the accelerations are supposed to be
   /// these; the next arc knows them.
-  void expect(const Row& late, double a, double a_loose) { late_ = late, a_ = a, a_loose_ = a_loose; }
+  void expect(const Row& late, double a, double a_loose) { late_ = late, a_ = a, a_loose_ = a_loose, is_told_ = true; }
   void settle(double a, double a_loose) {
     if (differ(a_, a)) add(map_[1], a_ - a, late_);
     if (differ(a_loose_, a_loose)) add(map_[3], a_loose_ - a_loose, late_);
@@ -110,10 +150,10 @@ class LooseTangent {
     const double a = acceleration(e.place, e.before), slope = law.derivative(e.before),
                  a_after = acceleration_alone(e.place, e.after, 2 * friction_);
     const Row late = combined(-1 / e.before, map_[0], 0, map_[0]);
-    if (carried_ != 0) add(map_[3], a - loose_.load, late);
+    if (carried_ != 0) add(map_[3], a - alone_, late);
     map_[0] = combined(e.after / e.before, map_[0], 0, map_[0]);
     map_[1] = combined(slope, map_[1], slope * a - a_after, late);
-    expect(late, a_after, loose_.load);
+    expect(late, a_after, alone_);
     carried_ = 0, rescale();
   }
   /// The damper of a soft stop pushes from the touch on (eq. 53).
@@ -123,44 +163,50 @@ class LooseTangent {
     const Row late = combined(-1 / e.before, map_[0], 0, map_[0]);
     add(map_[1], push, late);
     if (carried_ != 0) map_[3] = map_[1];
-    expect(late, a_after, carried_ != 0 ? a_after : loose_.load);
+    expect(late, a_after, carried_ != 0 ? a_after : alone_);
   }
   /// The acceleration jumps where the velocity is 0 (eq. 64).
   void reverse(const Event& e) {
     const Row late = combined(-1 / e.a_before, map_[1], 0, map_[1]);
     map_[1] = combined(e.a_after / e.a_before, map_[1], 0, map_[1]);
     if (carried_ != 0) map_[3] = map_[1];
-    expect(late, e.a_after, carried_ != 0 ? e.a_after : loose_.load);
+    expect(late, e.a_after, carried_ != 0 ? e.a_after : alone_);
   }
   void rest() {
+    const Row place = place_in_housing();
     map_[0] = map_[1] = {};
-    if (carried_ != 0) move_with_main();
-    loses_two_ = true, sticks_ = false, late_ = {};
+    if (carried_ != 0) move_with_main(place);
+    lose(2), sticks_ = false, late_ = {};
   }
-  void stick() {
+  /// A loose mass that is carried may go on by itself.
+  void stick(const Event& e) {
+    const double a = acceleration(e.place, 0);
+    late_ = {};
+    if (begun_ && !sticks_) expect(combined(-1 / a, map_[1], 0, map_[1]), 0, carried_ != 0 ? 0 : alone_);
     map_[1] = {};
     if (carried_ != 0) map_[3] = {};
-    sticks_ = true, late_ = {};
+    sticks_ = true;
   }
   /// A stick ends the later the further the spring has to be overcome (eq. 65).
-  void release(const Motion<double>& start, double later) {
+  void release(double a, double a_loose, double later) {
     sticks_ = false;
-    if (start.a == 0) return;
-    add(map_[1], -start.a * later, map_[0]);
-    if (carried_ != 0) map_[3] = map_[1];
+    if (a == 0) return;
+    add(map_[1], -a * later, map_[0]);
+    if (carried_ != 0) add(map_[3], -a_loose * later, map_[0]);
   }
   /// An impact on a wall with z' = w.
   void strike(double w, const Event::Main& main) {
     if (w == 0) return;
-    const double a = acceleration(main.place, main.before), a_after = acceleration(main.place, main.after),
-                 towards = loose_.load - a;
+    const double drag = 2 * rule_.ratio * (loose_.load - alone_);  // by how much friction in the housing turns round
+    const double a = acceleration(main.place, main.before), a_after = acceleration(main.place, main.after) - drag,
+                 towards = alone_ - a;
     const double kick = -rule_.share() * rule_.law_for(w).jump(1.0), back = kick / rule_.ratio;  // of x' and -y' by z'
     const Row z = combined(1, map_[2], -1, map_[0]), dw = combined(1, map_[3], -1, map_[1]);
     add(map_[0], kick, z);
     add(map_[1], kick, dw), add(map_[1], (a_after - a - kick * towards) / w, z);
     add(map_[2], -back, z);
-    add(map_[3], -back, dw), add(map_[3], back * towards / w, z);
-    expect(combined(-1 / w, z, 0, z), a_after, loose_.load);
+    add(map_[3], -back, dw), add(map_[3], (back * towards + drag / rule_.ratio) / w, z);
+    expect(combined(-1 / w, z, 0, z), a_after, alone_ + drag / rule_.ratio);
     sticks_ = false, rescale();
   }
   /// Both masses keep their common centre and momentum.
@@ -168,7 +214,7 @@ class LooseTangent {
     const double share = rule_.share();
     for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
       map_[i] = map_[i + 2] = combined(1 - share, map_[i], share, map_[i + 2]);
-    a_ = a_loose_ = (1 - share) * a_ + share * a_loose_, carried_ = rule_.ratio, loses_two_ = true;
+    a_ = a_loose_ = (1 - share) * a_ + share * a_loose_, carried_ = rule_.ratio, on_wall_ = is_told_ = true, lose(2);
   }
 
   [[nodiscard]] static Row combined(double a, const Row& one, double b, const Row& other) {
@@ -194,14 +240,24 @@ class LooseTangent {
   WallRule<double> rule_;
   LooseJacobian map_ = identity;
   double exponent_ = 0;
-  bool loses_two_ = false;
+  std::size_t lost_ = 0;
+  bool is_rough_;               ///< it rubs on the housing
   bool sticks_ = false;         ///< friction has held the main mass since
   Row late_{};                  ///< by which the last event is late, until the next arc begins,
   double a_ = 0, a_loose_ = 0;  ///< and the accelerations after it
   double h_ = 0, k_ = 1;        ///< damping and stiffness of the last arc,
   double force_ = 0;            ///< the force on the main mass at x = 0 at its end,
   double friction_ = 0;         ///< of which so much is friction,
-  double carried_ = 0;          ///< and the loose mass, if a wall presses it
+  double carried_ = 0;          ///< and the loose mass, if it moves with the main one
+  bool on_wall_ = true;         ///< which presses it then; else friction holds it, at any place
+  double alone_ = loose_.load;  ///< y'' of the loose mass beside the last arc, by itself
+  bool begun_ = false;          ///< there is a last arc
+  bool is_told_ = true;         ///< an event tells what follows it
+  /// With friction in the housing, at the end of the last arc.
+  struct End {
+    double a = 0, jerk = 0;
+    bool is_held = false;  ///< something holds the main mass
+  } end_{};
 };
 
 }  // namespace clatter::motion

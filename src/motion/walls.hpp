@@ -36,6 +36,11 @@ struct WallRule {
   }
 };
 
+/// y'' of a loose mass that slides towards a side, or flies (eq. 80).
+template <class Number>
+[[nodiscard]] Number load_of_slide(const BasicLooseMass<Number>& loose, Side towards) {
+  return towards == Side::none ? loose.load : Number(loose.load - sign_of(towards) * loose.friction / loose.ratio);
+}
 /// The constants of the main mass beside a loose one that slides towards a side: friction draws it along (eq. 80).
 template <class Number, Effects E>
 [[nodiscard]] ArcConstants<Number, E> drawn(const ArcConstants<Number, E>& free, const Number& friction, Side towards) {
@@ -130,7 +135,8 @@ template <class Number>
   const auto [z, w] = place_in_housing(state, loose);
   return {state.x, state.v, Number(state.x + z), Number(state.v + w)};
 }
-/// The state that a small change makes of one. A loose mass that a wall presses stays on it.
+/// The state that a small change makes of one. A loose mass that a wall presses stays on it, and one that friction
+/// holds keeps z' = 0.
 template <class Number>
 [[nodiscard]] State<Number> moved(State<Number> state, const Four<double>& by) {
   if (by == Four<double>{}) return state;
@@ -139,7 +145,8 @@ template <class Number>
   LooseState<Number>& loose = state.loose;
   const bool is_of_wall = loose.wall != Side::none;
   if (is_of_wall && loose.place == 0 && loose.speed == 0) return state;
-  loose.place += is_of_wall ? by[2] - by[0] : by[2], loose.speed += is_of_wall ? by[3] - by[1] : by[3];
+  loose.place += is_of_wall ? by[2] - by[0] : by[2];
+  if (!loose.pressed) loose.speed += is_of_wall ? by[3] - by[1] : by[3];
   loose.released = false;
   return state;
 }

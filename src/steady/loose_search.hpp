@@ -52,7 +52,7 @@ namespace clatter::steady {
 
 /// Finds the steady state of forced motion with a loose mass, section by section: by Newton's method once successive
 /// states contract, else by repetition of its displacement and velocity, and the place of the loose mass in its housing
-/// with z'. Friction in the housing leaves the second: it isn't in the derivative that Newton's method takes.
+/// with z'.
 template <stepping::Integrator I>
 class HousingSearch {
  public:
@@ -61,7 +61,7 @@ class HousingSearch {
       : integrator_(integrator),
         scene_(scene),
         time_(time),
-        by_newton_(by_newton && !has_loose_friction(scene.loose)),
+        by_newton_(by_newton),
         from_(from),
         beyond_contact_(scene, integrator.period()),
         repeat_(time.tolerance),
@@ -115,7 +115,8 @@ class HousingSearch {
   /// Once states have begun to contract, the periodic motion that they contract to, if Newton's method finds it.
   [[nodiscard]] std::optional<ObservedTime> attractor(const motion::State<double>& state) {
     const bool pays = section_ <= long_settling || section_ % 8 == 0;
-    if (!pays || state.loose.pressed) return std::nullopt;
+    const bool is_on_wall = state.loose.pressed && state.loose.place == 0;
+    if (!pays || is_on_wall) return std::nullopt;
     const auto contacts_of = [this](std::size_t ago) { return itinerary(ago); };
     const std::size_t n = contracting_.periods(repeat_, contacts_of, [](std::size_t) { return false; });
     const auto spent = static_cast<std::int64_t>(map_.simulated() + n * HousingMap<I>::most_turns);

@@ -18,6 +18,7 @@ struct Passage {
   Side rested_on = Side::none;  ///< the stop that held the mass last
   double size = 0.0;            ///< the largest displacement or speed at an event
   double loose_size = 0.0;      ///< the same of a loose mass in its housing
+  bool meets_wall = false;      ///< one strikes the loose mass, or presses it
 
   /// Whether they have the same contacts; the time in contact with a damped stop may differ, and the area with it.
   friend bool operator==(const Passage& a, const Passage& b) { return a.itinerary == b.itinerary; }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "motion/housed_arc.hpp"
 #include "motion/loose_tangent.hpp"
 #include "motion/tangent_map.hpp"
 #include "steady/map_orbit.hpp"
@@ -33,6 +34,7 @@ class BasicPassageObserver {
   void arc(const A& arc, double begin, double length) {
     if (differentiates_) [[unlikely]]
       tangent_.arc(arc, begin, length);
+    if constexpr (motion::Housed<A>) see_hold(arc.loose);
     if constexpr (A::effects.stiffness)
       if (const auto& stop = arc.constants().stop; stop.side != Side::none) {
         if (passage_.itinerary == 0) passage_.itinerary = itinerary_in_contact(stop.side);
@@ -42,7 +44,10 @@ class BasicPassageObserver {
   void event(const motion::Event& event) {
     using Kind = motion::Event::Kind;
     if (event.kind == Kind::hold) {
-      if (event.side == Side::none) stick_in_housing(event);
+      if (event.side == Side::none)
+        stick_in_housing(event);
+      else
+        passage_.meets_wall = true;
       return;
     }
     passage_.itinerary = with(passage_.itinerary, mark_of(event));
@@ -52,6 +57,7 @@ class BasicPassageObserver {
       passage_.log_area += log_of_area(event);
     if (event.lasts() && event.held) passage_.rested_on = event.side;
     if (event.kind == Kind::strike) {
+      passage_.meets_wall = true;
       see(event.main.place, event.main.before);
       passage_.loose_size = std::max({passage_.loose_size, std::abs(event.place), std::abs(event.before)});
     } else if (event.kind != Kind::separation && event.kind != Kind::press) {
@@ -65,7 +71,7 @@ class BasicPassageObserver {
     return with(0, in_contact + (side == Side::upper));
   }
 
-  void begin_section() { passage_ = {}; }
+  void begin_section() { passage_ = {}, slide_.reset(); }
   /// Begins to compute the derivative anew, from here.
   void differentiate() { differentiates_ = true, tangent_ = anew_; }
   void stop_differentiating() { differentiates_ = false; }
@@ -106,6 +112,7 @@ class BasicPassageObserver {
     return 0;
   }
   static constexpr std::uint64_t in_contact = 11;  ///< with a soft stop, the lower one
+  static constexpr std::uint64_t held_in_housing = 19, slides = 20;
 
   /// The logarithm of the factor by which an event at an instant changes areas; of a loose mass they are volumes of
   /// four numbers, of which a press takes two.
@@ -123,12 +130,23 @@ class BasicPassageObserver {
     passage_.log_area = -std::numeric_limits<double>::infinity();
     passage_.loose_size = std::max(passage_.loose_size, std::abs(hold.place));
   }
+  /// Friction in the housing begins to hold the loose mass, turns it, or lets it go: y'' is another one from here on.
+  template <class L>
+  void see_hold(const L& loose) {
+    if (motion::wall_of(loose) != Side::none) return;
+    double load = std::numeric_limits<double>::infinity();
+    if constexpr (requires { loose.load(); }) load = loose.load();
+    if (slide_ && *slide_ != load)
+      passage_.itinerary = with(passage_.itinerary, std::isinf(load) ? held_in_housing : slides);
+    slide_ = load;
+  }
   void see(double x, double v) { passage_.size = std::max({passage_.size, std::abs(x), std::abs(v)}); }
 
   double log_lower_, log_upper_;  ///< logarithm of R^2, the factor by which an impact shrinks areas
   Tangent anew_, tangent_;
   Passage passage_;
   bool differentiates_ = false;
+  std::optional<double> slide_{};  ///< y'' of the loose mass in the flight or slide before, infinite if it was held
 };
 
 using PassageObserver = BasicPassageObserver<motion::TangentMap<double>>;

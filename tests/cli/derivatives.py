@@ -15,12 +15,13 @@ PERIODIC = 0  # the status
 SIDES = (-2, -1, 1, 2)
 
 # powers of length, time and mass; all that isn't here is a number
+LEVELS = ("friction", "friction_static", "loose_friction", "loose_friction_static")
 OF_SCENE = {"h": (0, -1), "nu": (0, -1), "stiffness": (0, -2)}
-OF_SCENE |= dict.fromkeys(("f", "load", "friction", "friction_static", "loose_load"), (1, -2))
+OF_SCENE |= dict.fromkeys(("f", "load", *LEVELS, "loose_load"), (1, -2))
 OF_MACHINE = {
     "damping": (0, -1, 1),
     "frequency": (0, -1, 0),
-    **dict.fromkeys(("force", "load", "friction", "friction_static"), (1, -2, 1)),
+    **dict.fromkeys(("force", "load", *LEVELS), (1, -2, 1)),
     "stiffness": (0, -2, 1),
     **dict.fromkeys(("mass", "loose_mass"), (0, 0, 1)),
     "loose_load": (1, -2, 0),

@@ -4,6 +4,7 @@ methods that share no arc.
 Environment: CLATTER, the program.
 """
 
+import math
 import random
 import unittest
 
@@ -27,7 +28,6 @@ class Relations(relations.Relations):
     drawn = staticmethod(rubbing)
     # of a mass without friction, or not of random scenes
     test_the_lightest_loose_mass_is_a_ball_between_shaken_walls = None
-    test_multipliers_are_those_of_neighbouring_runs = None
     test_100000_elastic_impacts_keep_the_energy = None
     test_a_sweep_has_the_motions_of_its_points_with_any_number_of_threads = None
 
@@ -54,6 +54,18 @@ class Relations(relations.Relations):
         losses = steady["loss_damping"] + steady["loss_friction"] + steady["loss_impact"].sum()
         self.assertAlmostEqual(float(steady["work_in"]), float(losses), delta=1e-7)
 
+    @relations.in_scenes()
+    def test_steady_motion_is_where_a_long_transient_ends(self, scene):
+        steady = self.observed(scene, {"max_periods": 4000}, {"trajectory": 2, "period": True})
+        if steady["status"] != 0:
+            return
+        turn, turns = 2 * math.pi / scene["nu"], 1000
+        periods = round(float(steady["period"]) / turn)
+        run = self.transient(scene, turns * turn, turns + 1)
+        last = np.array([run[name][-periods:] for name in "xvzw"]).T
+        apart = np.abs(last - [float(steady[name][0]) for name in "xvzw"]).max(axis=1)
+        self.assertLess(apart.min(), 1e-8)
+
 
 class ClosedForms(LooseMass):
     HELD = {"h": 0.05, "f": 0.3, "nu": 1.2, "loose_mass": 0.2, "loose_gap": 0.4, "loose_R": 0.6, "loose_x0": 0.1}
@@ -66,6 +78,14 @@ class ClosedForms(LooseMass):
         np.testing.assert_allclose((data["z_min"], data["z_max"]), 0.1, rtol=1e-15)
         self.assertEqual(data["loss_friction"], 0)
         self.assertEqual(data["impact_word"], "-")
+
+    def test_held_for_good_a_change_grows_as_that_of_one_mass(self):
+        """Its place in the housing stays, and its speed there is lost."""
+        data = self.observed({**self.HELD, "loose_friction": 1.0}, {}, {"stability": True})
+        roots = np.roots([1.2, 2 * 0.05, 1])
+        expected = [1, *np.exp(roots * 2 * math.pi / 1.2), 0]
+        told = data["multiplier_re"] + 1j * data["multiplier_im"]
+        np.testing.assert_allclose(np.sort_complex(told), np.sort_complex(expected), atol=1e-12)
 
     def test_it_slides_once_the_acceleration_is_above_the_friction_over_the_mass(self):
         scene = {**self.HELD, "f": 0.02}

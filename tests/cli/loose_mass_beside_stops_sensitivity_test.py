@@ -8,6 +8,7 @@ import unittest
 
 import numpy as np
 
+from derivatives import LEVELS
 from loose_mass_sensitivity_test import OfRandomScenes, carrying
 from loose_mass_sensitivity_test import machine_of as loose_machine_of
 
@@ -34,11 +35,11 @@ def drawn(count, seed):
 
 
 NOT_LOOKED_AT = -1
-OF_OWN = ("stop_stiffness_lower", "stop_stiffness_upper", "friction", "friction_static")
+OF_OWN = ("stop_stiffness_lower", "stop_stiffness_upper", *LEVELS)
 
 
 def machine_of(mass):
-    """As that of a loose mass alone, with the stiffness of stops and the friction of the main mass."""
+    """As that of a loose mass alone, with the stiffness of stops and friction."""
     of_loose = loose_machine_of(mass)
 
     def machine(scene):

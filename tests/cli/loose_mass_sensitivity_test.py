@@ -213,7 +213,9 @@ def moved(scene, key, step):
 
 
 def is_valid(scene):
-    return scene["loose_R"] >= 0 and scene.get("friction", 0.0) <= scene.get("friction_static", math.inf)
+    return scene["loose_R"] >= 0 and all(
+        scene.get(level, 0.0) <= scene.get(f"{level}_static", math.inf) for level in ("friction", "loose_friction")
+    )
 
 
 def slopes_of(function, values):

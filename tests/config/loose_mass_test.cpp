@@ -57,7 +57,6 @@ TEST(LooseMass, is_refused_by_what_does_not_know_it) {
       {carried + "[observe]\nsensitivity = \"R\"\n", "6:15", "names 'R', which conflicts with 'loose_mass'"},
       {carried + "[observe]\nsensitivity = \"loose_v0\"\n", "6:15", "'loose_v0', a start"},
       {carried + "[sweep]\nloose_x0 = [0, 1]\nfollow = \"loose_x0\"\n", "7:10", "only the first point would start"},
-      {carried + "friction = 1\n[observe]\nattractor = true\n", "5:12", "friction of the main mass conflicts with"},
       {carried + "xs = 1\n[observe]\nsensitivity = \"base_amplitude\"\n", "7:15",
        "names 'base_amplitude', which conflicts with 'loose_mass'"},
       {carried + "friction = 0.1\n[branch]\nalong = \"nu\"\nrange = [0.5, 2]\n", "5:12",
@@ -82,21 +81,18 @@ TEST(LooseMass, rubs_on_its_housing_only_where_that_is_known) {
       {"[scene]\nxs = 1\nloose_friction = 0.1\n", "3:1", "'loose_friction' without 'loose_mass'"},
       {carried + "loose_friction = -1\n", "5:18", "loose_friction = -1 is out of range; expected >= 0"},
       {rubbing + "loose_friction_static = 0.005\n", "5:18", "expected loose_friction <= loose_friction_static"},
-      {rubbing + "[observe]\nattractor = true\n", "5:18",
-       "friction of the loose mass conflicts with 'attractor' beside 'loose_mass'; leave that out"},
-      {rubbing + "[observe]\nstability = true\n", "5:18", "conflicts with 'stability' beside 'loose_mass'"},
-      {rubbing + "[observe]\nsensitivity = \"nu\"\n", "5:18", "conflicts with 'sensitivity' beside 'loose_mass'"},
+      {rubbing + "[observe]\nsensitivity = \"loose_friction_static\"\n", "7:15",
+       "which isn't given, so that it follows 'loose_friction'"},
       {rubbing + "[branch]\nalong = \"nu\"\nrange = [0.5, 2]\n", "5:18", "conflicts with [branch]"},
-      {carried + "loose_friction_static = 0.1\n[observe]\nstability = true\n", "5:25", "conflicts with 'stability'"},
-      {carried + "[sweep]\nloose_friction = [0, 0.1]\n[observe]\nstability = true\n", "6:22",
-       "conflicts with 'stability'"},
+      {carried + "loose_friction_static = 0.1\n[branch]\nalong = \"nu\"\nrange = [0.5, 2]\n", "5:25",
+       "friction of the loose mass conflicts with [branch]"},
       {carried + "[observe]\nsensitivity = \"loose_friction\"\n", "6:15", "names 'loose_friction', which conflicts"},
       {carried + "[branch]\nalong = \"loose_friction\"\nrange = [0, 1]\n", "6:9", "loose_friction"},
   };
   expect_all("a.toml", table);
   const std::string observed = "[observe]\nstability = true\nattractor = true\nenergy = true\n";
   EXPECT_FALSE(problem_at(parse_config(carried + "loose_friction = 0\n" + observed, "a").sweep, 0).observe.of_friction);
-  const auto observe = problem_at(parse_config(rubbing + "[observe]\nenergy = true\n", "a").sweep, 0).observe;
+  const auto observe = problem_at(parse_config(rubbing + observed, "a").sweep, 0).observe;
   EXPECT_TRUE(observe.of_friction && !observe.of_sticks && observe.loose_impacts);
 }
 

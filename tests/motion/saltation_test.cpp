@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "motion/housed_arc.hpp"
 #include "motion/loose_tangent.hpp"
+#include "motion/relative_arc.hpp"
 #include "motion/tangent_map.hpp"
 #include "support/random.hpp"
 
@@ -172,6 +174,81 @@ TEST_F(Saltation, OfAnImpactOnAWallIsTheOneFormula) {  // eq. 73
     Matrix<4> D = diagonal<4>({1, 1, 1, 1});
     D[1][1] -= kick, D[1][3] += kick, D[3][1] += back, D[3][3] -= back;
     expect_near(tangent.map(), saltation<4>(D, {at.v, a, y, load}, {v_after, a_after, y_after, load}, {-1, 0, 1, 0}));
+  });
+}
+
+/// A loose mass that rubs on its housing, at z' = 0 beside a main mass at some instant.
+class AtRestInHousing {
+ public:
+  AtRestInHousing(const Instant& at, Random& any)
+      : at_(at),
+        loose{.ratio = any.uniform(0.01, 2),
+              .lower = -1,
+              .upper = 1,
+              .load = any.uniform(-1, 1),
+              .friction = any.uniform(0.1, 0.5),
+              .friction_static = any.uniform(0.5, 1)} {}
+
+  /// x'' beside a mass that slides to a side, y'' of that, and x'' of both as one.
+  [[nodiscard]] double a(int towards) const { return at_.a(at_.v, at_.friction + towards * loose.friction); }
+  [[nodiscard]] double y(int towards) const { return loose.load - towards * loose.friction / loose.ratio; }
+  [[nodiscard]] double as_one() const { return (a(0) + loose.ratio * loose.load) / (1 + loose.ratio); }
+  [[nodiscard]] Vector<4> sliding(int towards) const { return {at_.v, a(towards), at_.v, y(towards)}; }
+  [[nodiscard]] Vector<4> held() const { return {at_.v, as_one(), at_.v, as_one()}; }
+
+  void show_slide(LooseTangent& tangent, int towards) const {
+    const Oscillator& o = at_.oscillator();
+    const auto constants = ArcConstants<double, Instant::effects>::of(
+        o.damping, o.forcing, o.frequency, o.load + at_.friction + towards * loose.friction, o.stiffness);
+    const Arc<double, Instant::effects> main(constants, {0, at_.x, at_.v, a(towards), at_.sine, at_.cosine});
+    const RelativeArc<double, Instant::effects> beside(main, {0, 0.3, 0, at_.v}, y(towards));
+    tangent.arc(HousedArc{main, beside}, 0.0, 0.0);
+  }
+  void show_hold(LooseTangent& tangent) const {
+    const Oscillator& o = at_.oscillator();
+    const double both = 1 + loose.ratio, load = o.load + at_.friction + loose.ratio * loose.load;
+    auto constants = ArcConstants<double, Instant::effects>::of(o.damping / both, o.forcing / both, o.frequency,
+                                                                load / both, o.stiffness / both);
+    constants.carried = loose.ratio;
+    const Arc<double, Instant::effects> main(constants, {0, at_.x, at_.v, as_one(), at_.sine, at_.cosine});
+    tangent.arc(HousedArc{main, Pressed{Side::none, 0.3}}, 0.0, 0.0);
+  }
+
+ private:
+  const Instant& at_;
+
+ public:
+  LooseMass loose;
+};
+
+TEST_F(Saltation, OfTheEndOfASlideIsTheOneFormula) {  // z' = 0: friction turns the loose mass, or holds it
+  for_any_instant([](const Instant& at, Random& any) {
+    const AtRestInHousing housing(at, any);
+    const int towards = any.sign() > 0 ? 1 : -1;
+    for (const bool holds : {false, true}) {
+      LooseTangent tangent(Scene{.loose = housing.loose});
+      housing.show_slide(tangent, towards);
+      holds ? housing.show_hold(tangent) : housing.show_slide(tangent, -towards);
+      expect_near(tangent.map(), saltation<4>(diagonal<4>({1, 1, 1, 1}), housing.sliding(towards),
+                                              holds ? housing.held() : housing.sliding(-towards), {0, -1, 0, 1}));
+    }
+  });
+}
+
+TEST_F(Saltation, OfAReleaseInTheHousingIsTheOneFormula) {  // eq. 81: the guard is x'' of both as one
+  for_any_instant([](const Instant& at, Random& any) {
+    const AtRestInHousing housing(at, any);
+    const int towards = any.sign() > 0 ? 1 : -1;
+    LooseTangent tangent(Scene{.loose = housing.loose});
+    housing.show_hold(tangent);
+    housing.show_slide(tangent, towards);
+    const Oscillator& o = at.oscillator();
+    Matrix<4> found = tangent.map(), known{};
+    const Matrix<4> release = saltation<4>(diagonal<4>({1, 1, 1, 1}), housing.held(), housing.sliding(towards),
+                                           {-o.stiffness, -2 * o.damping, 0, 0}, o.forcing * o.frequency * at.cosine);
+    for (std::size_t i = 0; i < 4; ++i)  // a change of y' was lost before, since y' was x'
+      known[i] = {release[i][0], release[i][1] + release[i][3], release[i][2], 0};
+    expect_near(found, known);
   });
 }
 

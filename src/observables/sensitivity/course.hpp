@@ -21,8 +21,10 @@ struct Stretch {
   Side ahead = Side::none;             ///< to which it slips; none: it stands
   std::optional<motion::Event> end{};  ///< that ends it; of a rest or a stick that itself; nothing: a section
   // with a loose mass
-  motion::RelativeStart<double> loose{};  ///< its flight,
-  Side wall = Side::none;                 ///< or the wall that presses it
+  motion::RelativeStart<double> loose{};  ///< its flight, of one that moves with the main mass its place
+  Side wall = Side::none;                 ///< the wall that presses it
+  bool carries = false;                   ///< that wall, or friction, makes both move as one
+  Side slides_to = Side::none;            ///< the side to which one that rubs slides in its housing
   bool is_held = false;                   ///< friction or a stop holds the main mass,
   Side held_on = Side::none;              ///< that stop
   std::vector<motion::Event> ends{};      ///< the events at its end, in order; of a section or a release none

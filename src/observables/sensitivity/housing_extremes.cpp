@@ -40,7 +40,6 @@ class Search {
 
 template <Effects E>
 HousingExtremes extremes_with(const Course& course, const ObservedSpan& span) {
-  const LooseMass& housing = span.scene.loose;
   const MainOscillators<double, E> oscillators(motion::ArcConstants<double, E>(span.scene.oscillator), span.scene);
   HousingExtremes extremes;
   Search x(span, extremes.x), y(span, extremes.y), z(span, extremes.z);
@@ -50,11 +49,11 @@ HousingExtremes extremes_with(const Course& course, const ObservedSpan& span) {
     oscillators.in_stretch(stretch, [&](const auto& constants) {
       const motion::Arc main(constants, stretch.start, stretch.anchor);
       x.look_at(stretch, i, main);
-      if (stretch.wall != Side::none) {
-        const double place = stretch.wall == Side::upper ? housing.upper : housing.lower;
+      if (stretch.carries) {
+        const double place = stretch.loose.origin + stretch.loose.offset;
         y.look_at(stretch, i, main, place), extremes.z.see({place, i});
       } else {
-        const motion::RelativeArc arc(main, stretch.loose, housing.load);
+        const motion::RelativeArc arc(main, stretch.loose, motion::load_of_slide(span.scene.loose, stretch.slides_to));
         y.look_at(stretch, i, LooseArc(arc)), z.look_at(i, stretch.length, arc);
       }
     });

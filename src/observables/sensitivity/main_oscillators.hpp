@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <utility>
 #include <variant>
 
@@ -9,34 +11,36 @@
 
 namespace clatter::observables {
 
-/// The oscillators that a main mass belongs to, alone and with a loose one that a wall presses: in its slips, in
-/// contact with soft stops, and while something holds it.
+/// The oscillators that a main mass belongs to, alone, beside a loose one that slides to a side, and with one that it
+/// carries: in its slips, in contact with soft stops, and while something holds it.
 template <class Number, Effects E>
 class MainOscillators {
  public:
+  using Constants = motion::ArcConstants<Number, E>;
+
   /// `free`: that of the main mass alone.
-  MainOscillators(const motion::ArcConstants<Number, E>& free, const BasicScene<Number>& scene)
-      : free_(free),
-        held_(Held::of(Number(0), Number(0), free.nu, Number(0), Number(0))),
-        alone_(free, scene.friction, scene.stops),
+  MainOscillators(const Constants& free, const BasicScene<Number>& scene)
+      : held_(Held::of(Number(0), Number(0), free.nu, Number(0), Number(0))),
+        alone_{beside(free, scene, Side::lower), beside(free, scene, Side::none), beside(free, scene, Side::upper)},
         carrying_(of_both(free, scene)) {}
 
   /// Calls `function(constants)` with those of a stretch.
   template <class Function>
   void in_stretch(const Stretch& stretch, Function&& function) const {
     if (stretch.is_held) return function(held_);
-    with_slips(stretch.wall, [&](const auto&, const auto& slips) {
+    with_slips(stretch, [&](const auto&, const auto& slips) {
       if (stretch.pressed == Side::none)
         function(slips.towards(stretch.ahead));
       else
         slips.in_contact(stretch.pressed, stretch.ahead, function);
     });
   }
-  /// Calls `function(still, slips)` with the oscillator without friction and its slips, with what `wall` presses.
+  /// Calls `function(still, slips)` with the oscillator of a stretch without friction of the main mass, and its slips.
   template <class Function>
-  void with_slips(Side wall, Function&& function) const {
-    if (wall == Side::none) return function(free_, alone_);
-    std::visit([&](const auto& both) { function(both.still, both.slips); }, carrying_);
+  void with_slips(const Stretch& stretch, Function&& function) const {
+    const auto call = [&](const auto& of) { function(of.still, of.slips); };
+    if (stretch.carries) return std::visit(call, carrying_);
+    call(alone_[static_cast<std::size_t>(1 + sign_of(stretch.slides_to))]);
   }
 
  private:
@@ -51,8 +55,11 @@ class MainOscillators {
   using Light = Both<effects<Damping::light, Forcing::secular>>;
   using Heavy = Both<effects<Damping::heavy, Forcing::regular>>;
 
-  [[nodiscard]] static std::variant<Light, Heavy> of_both(const motion::ArcConstants<Number, E>& free,
-                                                          const BasicScene<Number>& scene) {
+  [[nodiscard]] static Both<E> beside(const Constants& free, const BasicScene<Number>& scene, Side slides_to) {
+    const Constants still = slides_to == Side::none ? free : motion::drawn(free, scene.loose.friction, slides_to);
+    return {still, {still, scene.friction, scene.stops}};
+  }
+  [[nodiscard]] static std::variant<Light, Heavy> of_both(const Constants& free, const BasicScene<Number>& scene) {
     const auto make = [&]<class Of>() {
       const auto still = motion::carrying<decltype(Of::still)>(free, scene.loose);
       return Of{still,
@@ -63,9 +70,8 @@ class MainOscillators {
     return make.template operator()<Heavy>();
   }
 
-  motion::ArcConstants<Number, E> free_;
-  Held held_;  ///< no force moves the mass
-  motion::Slips<Number, E> alone_;
+  Held held_;                     ///< no force moves the mass
+  std::array<Both<E>, 3> alone_;  ///< beside a loose one that slides to the lower side, flies, slides to the upper one
   std::variant<Light, Heavy> carrying_;
 };
 

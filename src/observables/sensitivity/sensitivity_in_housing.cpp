@@ -8,8 +8,10 @@
 #include "motion/linear_maps.hpp"
 #include "motion/relative_arc.hpp"
 #include "motion/walls.hpp"
+#include "observables/sensitivity/course_slips.hpp"
 #include "observables/sensitivity/dual_motion.hpp"
 #include "observables/sensitivity/housing_extremes.hpp"
+#include "observables/sensitivity/housing_instants.hpp"
 #include "observables/sensitivity/main_oscillators.hpp"
 #include "observables/sensitivity/sensitivity_observer.hpp"
 #include "scene/smooth_effects.hpp"
@@ -39,6 +41,7 @@ class HousingWalk {
             motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude, scene.oscillator.frequency,
                                                scene.oscillator.load, scene.oscillator.stiffness),
             scene),
+        instants_(course, span, scene, oscillators_, force_.lead),
         rule_(scene.loose),
         has_stops_(has_events_of_its_own(span.scene)) {}
 
@@ -49,10 +52,10 @@ class HousingWalk {
       if (course_[i].is_held) hold(course_[i]);
       check(course_[i]);
       oscillators_.in_stretch(course_[i], [&](const auto& constants) {
-        if (course_[i].wall == Side::none)
-          fly(i, constants);
-        else
+        if (course_[i].carries)
           carry(i, constants);
+        else
+          fly(i, constants);
       });
     }
     check(course_.front());
@@ -79,12 +82,14 @@ class HousingWalk {
   [[nodiscard]] Along place(Side wall) const { return wall == Side::upper ? scene_.loose.upper : scene_.loose.lower; }
   [[nodiscard]] const Along& position(Side stop) const { return position_of(scene_.stops, stop); }
 
-  /// At a section, in an unknown state. A wall that presses the loose mass leaves nothing of z and z'.
+  /// At a section, in an unknown state. A wall that presses the loose mass leaves nothing of z and z', friction that
+  /// holds it nothing of z'.
   void begin(const Stretch& first) {
     const motion::RelativeStart<double>& loose = first.loose;
     state_ = {Along(first.start.x, by_x), Along(first.start.v, by_v), Along(loose.origin + loose.offset, by_z),
               Along(loose.w, by_w), force_.lead};
-    if (first.wall != Side::none) state_.z = place(first.wall), state_.w = Along(0);
+    if (first.wall != Side::none) state_.z = place(first.wall);
+    if (first.carries) state_.w = Along(0);
     if (first.is_held) stop(first.held_on);
   }
 
@@ -92,7 +97,7 @@ class HousingWalk {
   void hold(const Stretch& stretch) {
     if (state_.v.value == 0 && state_.v.is_constant()) return;
     if (stretch.held_on != Side::none) lost_ += state_.v * state_.v / 2;
-    if (stretch.wall == Side::none) state_.w += state_.v;
+    if (!stretch.carries) state_.w += state_.v;
     stop(stretch.held_on);
   }
   void stop(Side on) {
@@ -104,10 +109,12 @@ class HousingWalk {
   void fly(std::size_t i, const motion::ArcConstants<Along, of>& constants) {
     const Stretch& stretch = course_[i];
     const motion::Arc<Along, of> main(constants, start_of(stretch, constants), Along(stretch.anchor));
-    const motion::RelativeArc<Along, of> arc(main, start_of(stretch.loose), scene_.loose.load);
+    const motion::RelativeArc<Along, of> arc(main, start_of(stretch.loose),
+                                             motion::load_of_slide(scene_.loose, stretch.slides_to));
     const Motion end = main.at(Along(stretch.length)), there = arc.at(Along(stretch.length));
     const State before = state_;
-    const Along late = lateness(i, end, there);
+    const Along late =
+        instants_.lateness(i, {end, there, constants.jerk(end).value}, state_.x, phase_after(state_, stretch.length));
     pass(stretch, end, late);
     const bool strikes = !stretch.ends.empty() && stretch.ends.front().kind == Kind::strike;
     state_.z = strikes ? place(stretch.ends.front().side) : there.x + there.v * late;
@@ -117,18 +124,20 @@ class HousingWalk {
     for (const motion::Event& event : stretch.ends) meet(event, false);
   }
 
-  /// Both masses as one. Where the wall would have to pull (eq. 72), x'' is the same before and after, so that a
-  /// release a little later changes nothing to first order: it counts as if it came at a phase of the force, like a
-  /// section.
+  /// Both masses as one. Without friction x'' is the same before and after the wall would have to pull (eq. 72), so
+  /// that a release a little later changes nothing to first order: it counts as if it came at a phase of the force,
+  /// like a section.
   template <Effects of>
   void carry(std::size_t i, const motion::ArcConstants<Along, of>& constants) {
     const Stretch& stretch = course_[i];
     const motion::Arc<Along, of> arc(constants, start_of(stretch, constants), Along(stretch.anchor));
     const Motion end = arc.at(Along(stretch.length));
     const State before = state_;
-    const Along late = lateness(i, end, end);
+    const Along late =
+        instants_.lateness(i, {end, end, constants.jerk(end).value}, state_.x, phase_after(state_, stretch.length));
     pass(stretch, end, late);
-    state_.z = place(stretch.wall), state_.w = Along(0);
+    if (stretch.wall != Side::none) state_.z = place(stretch.wall);
+    state_.w = Along(0);
     lose(stretch, arc, before, end, late);
     see(i, before, end, [&](const Along& s) {
       return Both{arc.at(s), {.offset = 0, .x = state_.z, .v = 0, .a = 0, .sine = 0, .cosine = 0}};
@@ -145,35 +154,6 @@ class HousingWalk {
             with_slope_of(loose.v, state_.w + state_.v)};
   }
 
-  /// By how much the end of a stretch comes later, of the main mass at `end` and the loose one at `there`: the surface
-  /// of its event over its rate of change. Its value is 0.
-  [[nodiscard]] Along lateness(std::size_t i, const Motion& end, const Motion& there) const {
-    const Stretch& stretch = course_[i];
-    // a press alone comes where the force of the wall only touches zero, and changes nothing
-    if (stretch.ends.empty() || stretch.ends.front().kind == Kind::press) {
-      const bool lets_go = stretch.is_held && i + 1 < course_.size() && !course_[i + 1].is_held;
-      const Along phase = lets_go ? phase_of_release(course_[i + 1]) : force_.lead;
-      return with_slope_of(0, (phase - phase_after(state_, stretch.length)) / scene_.oscillator.frequency.value);
-    }
-    const motion::Event& event = stretch.ends.front();
-    if (event.kind == Kind::strike) return with_slope_of(0, -(there.x - place(event.side)) / there.v.value);
-    return lateness_of(event, end, stretch.anchor, scene_.stops);
-  }
-  /// The phase of the force at which the main mass is let go, where the pull on it passes the level of friction, on a
-  /// stop without friction 0 (eqs. 26 and 66).
-  [[nodiscard]] Along phase_of_release(const Stretch& next) const {
-    Along phase;
-    oscillators_.with_slips(next.wall, [&](const auto& still, const auto& slips) {
-      Along needed = still.spring(state_.x) - still.load + sign_of(next.ahead) * slips.static_level;
-      if (next.pressed != Side::none) {
-        const auto soft = motion::soft_stop_at<Along>(scene_.stops, next.pressed);
-        const Along share = next.wall == Side::none ? Along(1) : 1 / (1 + scene_.loose.ratio);
-        needed += share * soft.stiffness * (state_.x - soft.position);
-      }
-      phase = with_slope_of(0, needed / still.f / next.start.cosine);
-    });
-    return phase;
-  }
   [[nodiscard]] Along phase_after(const State& from, double s) const {
     return from.phase + with_slope_of(0, scene_.oscillator.frequency * s);
   }
@@ -275,8 +255,7 @@ class HousingWalk {
   /// A course whose stretches don't follow from each other has no derivatives.
   void check(const Stretch& next) {
     const motion::RelativeStart<double>& loose = next.loose;
-    const bool is_pressed = next.wall != Side::none;
-    const double z = is_pressed ? place(next.wall).value : loose.origin + loose.offset, w = is_pressed ? 0.0 : loose.w;
+    const double z = loose.origin + loose.offset, w = loose.w;
     const motion::Motion<double>& main = next.start;
     const double size = std::max({std::abs(main.x), std::abs(main.v), std::abs(z), std::abs(w)});
     const auto is_same = [&](const Along& one, double other) { return std::abs(one.value - other) <= same * size; };
@@ -319,6 +298,7 @@ class HousingWalk {
   DualFrame<Along> frame_;
   Along mass_;  ///< over that of the units
   MainOscillators<Along, E> oscillators_;
+  HousingInstants<Along, E> instants_;
   motion::WallRule<Along> rule_;
   bool has_stops_;  ///< or friction, of the main mass
   State state_{};
@@ -334,13 +314,22 @@ std::vector<Sensitivity::ByKey> sensitivities_in_housing(const Course& course, c
                                                          const std::vector<Parameter>& keys) {
   std::vector<Sensitivity::ByKey> all;
   const HousingExtremes extremes = extremes_in_housing(course, span);
-  for (const Parameter key : keys) {
+  const auto by = [&](Parameter key, const Course& of_key, const HousingExtremes& farthest) {
     auto given = with_numbers<Along>(*span.given);
     differentiate_by(given, key, by_key);
     const BasicScene<Along> scene = computed(given, span.units);
     all.push_back(with_smooth_effects<true>(span.scene.oscillator, [&]<Effects E>() {
-      return HousingWalk<E>(course, span, extremes, scene, given.mass / span.units.mass).run();
+      return HousingWalk<E>(of_key, span, farthest, scene, given.mass / span.units.mass).run();
     }));
+  };
+  for (const Parameter key : keys) {
+    const bool is_rough = key.is_loose() ? has_loose_friction(span.scene.loose) : has_friction(span.scene.friction);
+    if (is_rough || key.role() != Role::friction) {
+      by(key, course, extremes);
+    } else {  // from 0 on
+      const Course slips = divided_into_slips(course, span, key.is_loose());
+      by(key, slips, extremes_in_housing(slips, span));
+    }
   }
   return all;
 }

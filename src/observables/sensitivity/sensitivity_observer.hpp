@@ -26,6 +26,7 @@ class Sensitivity::Observer {
       : keys_(settings.sensitivity),
         is_sought_(span.periodic && span.given != nullptr && span.scene.oscillator.forcing != 0),
         is_housed_(has_loose_mass(span.scene.loose)),
+        rubs_(has_loose_friction(span.scene.loose)),
         stability_({}, span) {}
 
   template <class A>
@@ -38,8 +39,11 @@ class Sensitivity::Observer {
       course_.push_back({arc.start(), arc.anchor(), begin, length, Side::none, ahead});
       if constexpr (A::effects.stiffness) course_.back().pressed = arc.constants().stop.side;
       if constexpr (motion::Housed<A>) {
+        Stretch& stretch = course_.back();
         add_loose(arc.loose);
-        if (held_) course_.back().is_held = true, course_.back().held_on = held_->side;
+        if (held_) stretch.is_held = true, stretch.held_on = held_->side;
+        const double rubbing = held_ ? held_->rubbing : static_cast<double>(arc.constants().rubbing);
+        if (rubs_ && !stretch.carries) stretch.slides_to = std::signbit(rubbing) ? Side::lower : Side::upper;
         held_.reset();
       }
     }
@@ -70,7 +74,9 @@ class Sensitivity::Observer {
   void add_loose(const motion::RelativeArc<double, E>& loose) {
     course_.back().loose = {loose.anchor(), loose.start().offset, loose.start().v, loose.velocity(0.0)};
   }
-  void add_loose(const motion::Pressed& loose) { course_.back().wall = loose.wall; }
+  void add_loose(const motion::Pressed& loose) {
+    course_.back().wall = loose.wall, course_.back().carries = true, course_.back().loose.offset = loose.place;
+  }
   /// With a loose mass: the arc that follows shows a time for which the main one is held. A stick ends the slip before.
   void end_housed(const motion::Event& event) {
     if (event.kind == motion::Event::Kind::hold) return;
@@ -84,7 +90,7 @@ class Sensitivity::Observer {
   }
 
   ParameterSet keys_;
-  bool is_sought_, is_housed_;
+  bool is_sought_, is_housed_, rubs_;
   Stability::Observer stability_;  ///< tells grazes
   Course course_{};
   std::optional<motion::Event> held_{};  ///< a time for which the main mass is held, whose arc comes next

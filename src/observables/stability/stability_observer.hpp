@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 #include <numbers>
 #include <optional>
 
@@ -117,7 +119,7 @@ class Stability::Observer {
       values.lyapunov = (motion::log_norm(loose_->mantissa()) + power * std::numbers::ln2) / span.total;
     if (!span.periodic || grazes()) return values;
     auto all = motion::known_of(motion::multipliers_of(loose_->mantissa()), power);
-    if (loose_->loses_two()) all[2] = all[3] = 0.0;  // but for rounding
+    std::fill(all.end() - static_cast<std::ptrdiff_t>(loose_->lost()), all.end(), 0.0);  // but for rounding
     values.lyapunov = (std::log(std::abs(all[0])) + power * std::numbers::ln2) / span.total;
     for (std::size_t i = 0; i < all.size(); ++i) {
       values.multiplier_re[i] = motion::TangentMap<double>::scaled(all[i].real(), power) + 0.0;  // no negative zero
