@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "attractors/periodic_motion.hpp"
 #include "branches/branch.hpp"
@@ -72,6 +73,21 @@ TEST(Rubbing, has_the_amplitude_of_Den_Hartog_down_to_no_friction) {
     EXPECT_NEAR(highest(point), amplitude(0.8, point.scene.friction.kinetic), 1e-12);
   EXPECT_EQ(found.points.front().scene.friction.kinetic, 0);
   EXPECT_NEAR(highest(found.points.front()), 1 / 0.36, 1e-12);
+}
+
+/// A halt comes to the position of a soft stop: beyond, the mass halts within it.
+TEST(Rubbing, comes_to_a_soft_stop_with_the_amplitude_of_Den_Hartog) {
+  sweep::GivenProblem problem = rubbing(0.0, 0.8, 0.3);
+  const double gap = amplitude(0.82, 0.3);
+  problem.stops.lower = -gap, problem.stops.upper = gap;
+  problem.stops.stiffness_lower = problem.stops.stiffness_upper = 10;
+  const Branches found = follow_branches(problem, {.along = Parameter("nu"), .range = {0.78, 0.86}});
+  const auto graze = std::ranges::find(found.special, SpecialKind::graze, &SpecialPoint::kind);
+  ASSERT_NE(graze, found.special.end());
+  EXPECT_NEAR(graze->at.scene.oscillator.frequency, 0.82, 1e-12);
+  EXPECT_EQ(graze->branches, (std::vector<std::size_t>{0, 1}));
+  for (const BranchPoint& point : found.points) EXPECT_EQ(highest(point) > gap + 1e-12, point.branch == 1);
+  EXPECT_EQ(std::ranges::count(found.ends, true, &BranchEnd::failed), 0);
 }
 
 void expect_multipliers_of_runs(sweep::GivenProblem given) {

@@ -10,6 +10,8 @@
 #include "branches/walk/ceasing.hpp"
 #include "branches/walk/halt_at_soft_stop.hpp"
 #include "branches/walk/halves.hpp"
+#include "branches/walk/slip_violation.hpp"
+#include "branches/walk/touch.hpp"
 #include "branches/walk/violation.hpp"
 
 namespace clatter::branches {
@@ -174,6 +176,25 @@ Vector growth(const OrbitEquations& of, const Opening& opening, std::size_t firs
   return longer;
 }
 
+/// Motion that is symmetric between stops that aren't alike comes to both at once: as it comes to lie within the one,
+/// it strikes, or touches, the other one, too, at a halt that a violation has. As it comes to lie outside, it no longer
+/// strikes that.
+std::optional<Orbit> with_other_stop(const FollowedScene& scene, Orbit orbit, const Opening& opening,
+                                     const Violation& found, double advance) {
+  if (opening.kind == Kind::outside && found.kind == Violation::Kind::pulls &&
+      orbit.events[found.event].kind == Event::Kind::impact)
+    return halting_at_stop(scene, orbit, found.event);
+  const std::size_t next = (found.event + 1) % orbit.size(), opened = halt_of(opening, orbit);
+  if (opening.kind != Kind::within || found.kind != Violation::Kind::passes_through || next <= opened) return {};
+  OrbitEvent& halt = orbit.events[next];
+  const Side stop = orbit.heading_before(next);
+  if (halt.kind != Event::Kind::reversal || halt.held_by() != Side::none) return {};
+  if (is_soft(scene.stops, stop)) return with_halt_beside(scene, orbit, next, advance, true);
+  const double time = advance / scene.oscillator.frequency, a = std::abs(acceleration_from(scene, halt, stop));
+  halt = {stop, halt.phase, sign_of(stop) * a * time};
+  return orbit;
+}
+
 /// Motion between the stops with what began at an event `first`.
 struct Lasting {
   Orbit orbit;
@@ -192,6 +213,15 @@ std::optional<Lasting> with_lasting(const Equations& equations, const FollowedSc
     const auto violated = violation(there, *at);
     lasting.at = *std::move(at);
     if (!violated) return lasting;
+    if (opening.is_of_soft_stop()) {
+      std::optional<Orbit> both;
+      const Orbit one = there.orbit_at(lasting.at);
+      for (const Violation& found : slip_violations(there.scene_at(lasting.at), one, {}))
+        if (!both) both = with_other_stop(scene, one, opening, found, advance);
+      if (!both) return std::nullopt;
+      lasting.orbit = *std::move(both);
+      continue;
+    }
     const auto second = another(opening.kind, *violated);
     if (!second) return std::nullopt;
     Orbit both = there.orbit_at(lasting.at);

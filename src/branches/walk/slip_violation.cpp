@@ -10,7 +10,8 @@
 namespace clatter::branches {
 namespace {
 
-constexpr double shortest = 1e-9;  // rad, of a slip
+constexpr double shortest = 1e-9;         // rad, of a slip
+constexpr double about_to_vanish = 1e-6;  // rad, of a contact with a soft stop: rounding decides when its force turns
 
 /// Whether all that an orbit does is to slip from stick to stick, for less than some phase each time.
 template <Effects E>
@@ -80,14 +81,16 @@ std::optional<Violation> in_flight(const Flights<double, E>& flights, const Orbi
     const auto crossing = motion::first_crossing(arc, margins, length);
     const motion::Motion<double>& m = crossing.motion;
     if (crossing.resolved && crossing.margin == margins.size()) return std::nullopt;
-    const bool stands = crossing.margin == 1;
+    const bool meets = crossing.margin == 0, stands = !meets && crossing.margin != 2;
     if (crossing.resolved && crossing.margin == margin_at(flight.arrives) &&
         is_at_end(crossing.elapsed, length, stands ? m.v : m.x, stands ? m.a : m.v, nu))
       return std::nullopt;
-    if (crossing.margin == 0) return Violation{Violation::Kind::passes_through, i, {ahead, flight.end, 0.0}};
-    const double turn = turning_time(arc, margins.at(std::min<std::size_t>(crossing.margin, 2)), crossing.elapsed);
+    if (meets) return Violation{Violation::Kind::passes_through, i, {ahead, flight.end, 0.0}};
+    const double turn = turning_time(arc, margins.at(stands ? 1 : 2), crossing.elapsed);
     const double v = arc.at(turn).v, place = static_cast<double>(arc.at(turn).x) - p.middle();
     const Side pressed = flight.pressed();
+    if (!stands && flight.may_vanish(p) && length * nu < about_to_vanish)
+      return Violation{Violation::Kind::ends_early, i, {}};
     if (!stands) {
       const bool contact = pressed != Side::none;
       return Violation{
