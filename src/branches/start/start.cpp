@@ -322,8 +322,9 @@ std::optional<Orbit> event_run(const point::Problem& problem, std::size_t period
   const double nu = problem.oscillator.frequency;
   for (const motion::Event& event : recorder.events) {
     const bool rests = event.kind == Event::Kind::rest || event.kind == Event::Kind::chatter;
-    OrbitEvent& kept = orbit.events.emplace_back(event.side, nu * event.time, event.velocity(), event.kind,
-                                                 nu * event.length, halts(event.kind) ? event.place - middle : 0.0);
+    orbit.events.push_back({event.side, nu * event.time, event.velocity(), event.kind, nu * event.length,
+                            halts(event.kind) ? event.place - middle : 0.0});
+    OrbitEvent& kept = orbit.events.back();
     if (rests) kept.kind = Event::Kind::impact;  // one without speed
     if (event.of_wall) kept.kind = Event::Kind::strike, kept.other = {event.main.place - middle, event.main.before};
   }
