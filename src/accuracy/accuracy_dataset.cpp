@@ -95,7 +95,7 @@ results::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<P
     dataset.variables.push_back({name, over_rows, std::move(values), long_name, "1"});
     dataset.variables.back().missing_if = missing_if;
   }
-  sweep::add_drawn_names(sweep.problem.is_si, dataset, false, false);
+  sweep::add_drawn_names(sweep.problem.is_si, dataset, has_loose_mass(sweep), false);
   name_linked_axes(sweep, dataset);
   return dataset;
 }

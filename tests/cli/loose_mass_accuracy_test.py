@@ -59,6 +59,8 @@ class LooseMassAccuracy(AccuracyRuns):
             self.assertLess(exact[key], 1e-12, key)
         self.assert_errors_fall(rows, "dopri5", "error_extrema", (1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11), 1.3)
         self.assert_errors_fall(rows, "moreau", "error_extrema", (1e-3, 1e-4, 1e-5), 2)
+        with h5py.File(self.directory / "a.h5") as file:  # which pictures name in their titles
+            self.assertIn("loose_friction = ", file.attrs["scene_names"])
 
     def test_steady_motion_is_found_again_in_50_digits(self):
         rows = self.rows_of(DAMPER + "loose_v0 = 0.3\n[time]\nwindow = 4\n")
