@@ -9,7 +9,7 @@
 #include "motion/housed_arc.hpp"
 #include "motion/polynomial_in_housing.hpp"
 #include "stepping/carrying.hpp"
-#include "stepping/modes/housing.hpp"
+#include "stepping/laws.hpp"
 #include "stepping/step_velocities.hpp"
 
 namespace clatter::stepping {
@@ -80,7 +80,7 @@ class Moreau : public StepVelocities<E> {
       const auto stop = motion::stop_at<double>(this->stops(), side);
       if (state.x != stop.position || !(stop.into(state.v) > 0)) continue;
       const double before = std::exchange(state.v, stop.law.after(state.v));
-      if (state.loose.wall != Side::none) state.loose.speed += before - state.v;
+      laws::keep_on(state, before);
       stage.show_impact(stop, before);
       if (!this->count_impact()) return false;
     }
