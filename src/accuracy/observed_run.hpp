@@ -36,12 +36,19 @@ class RunObserver {
       harmonics_->arc(rounded, begin, length);
     });
   }
+  /// While a soft wall couples both masses.
+  void arc(const motion::CoupledArc<Number>& arc, double begin, double length) {
+    if (!harmonics_) return;
+    const auto rounded = point::in_double(arc);
+    extrema_.arc(rounded, begin, length), harmonics_->arc(rounded, begin, length);
+  }
   void event(const motion::Event& event) {
     using Kind = motion::Event::Kind;
-    if (event.kind == Kind::touch || event.kind == Kind::renewal)
-      events.push_back(as_impact(event));
-    else if (event.kind != Kind::separation && event.kind != Kind::press)
-      events.push_back(event.in_housing());
+    const motion::Event seen = event.in_housing();
+    if (seen.kind == Kind::touch || seen.kind == Kind::renewal)
+      events.push_back(as_impact(seen));
+    else if (seen.kind != Kind::separation && seen.kind != Kind::press)
+      events.push_back(seen);
     if (!harmonics_ || (event.kind == Kind::strike && !(event.time > 0))) return;
     extrema_.event(event), harmonics_->event(event);
   }

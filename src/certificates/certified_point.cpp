@@ -205,6 +205,10 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
   CertifiedPoint point{.status = known.status};
   if (known.status == Status::grazing) point.without = Without::graze;
   if (known.status != Status::periodic && known.status != Status::transient) return point;
+  if (has_soft_wall(problem.loose)) {
+    point.without = Without::soft_wall;
+    return point;
+  }
   if (has_loose_friction(problem.loose)) {
     point.without = Without::loose_friction;
     return point;

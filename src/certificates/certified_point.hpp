@@ -21,6 +21,7 @@ enum class Without : std::uint8_t {
   graze,           ///< the smallest change of the motion decides whether it meets a stop
   cut_chatter,     ///< it ends within a chatter
   rounding,        ///< the motion stretches rounding so much that its events aren't known
+  soft_wall,       ///< a loose mass has a soft wall, which certificates don't state
   loose_friction,  ///< a loose mass rubs on its housing, which certificates don't state
   both_held,       ///< a stop or friction holds the main mass while a wall presses the loose one
   one_instant,     ///< two events come within rounding of each other

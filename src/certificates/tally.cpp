@@ -19,6 +19,8 @@ std::string reason_of(const CertifiedPoint& point) {
       return "one of a family";
     case Without::cut_chatter:
       return "cut within a chatter";
+    case Without::soft_wall:
+      return "with a soft wall of the loose mass";
     case Without::loose_friction:
       return "with friction of the loose mass";
     case Without::both_held:

@@ -109,6 +109,9 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
     observed.loose_impacts = false;
     observed.wall_impacts = observed.wall_energy = observed.wall_log = observed.word_walls = true;
   }
+  const bool has_soft_walls =
+      is_soft_wall_somewhere(settings, Side::lower) || is_soft_wall_somewhere(settings, Side::upper);
+  if (has_soft_walls) (observed.wall_impacts ? observed.of_soft_walls : observed.of_soft_stops) = true;
   observed.of_sticks = has_friction_somewhere(settings);
   observed.of_friction = observed.of_sticks || has_loose_friction(settings);
   if (sweep.follow) sweep.direction = direction_of(settings), observed.followed_attractor = true;
@@ -156,7 +159,8 @@ Parameter followed_key(const Settings& settings, const Setting& chosen, const Se
 bool change_the_same(Parameter one, Parameter other) {
   const bool is_damping = one.role() == Role::damping || one.role() == Role::stop_damping;
   const bool of_one_stop = one.side() == other.side() || one.is_of_both() || other.is_of_both();
-  const bool of_one_damper = is_damping && one.role() == other.role() && of_one_stop;
+  const bool of_one_damper =
+      is_damping && one.role() == other.role() && of_one_stop && one.is_loose() == other.is_loose();
   return one.key() == other.key() || one.stands_for(other) || other.stands_for(one) || of_one_damper;
 }
 
@@ -243,6 +247,7 @@ Config config_of(ParsedConfig parsed) {
   spread_sobol(settings);
   const AxisGroups groups = group_axes(settings);
   check_housing(settings, groups);
+  check_soft_walls(settings, groups);
   check_stops_and_start(settings, groups);
   check_soft_stops(settings, groups);
   check_sensitivity(settings);

@@ -32,10 +32,17 @@ bool is_half_given(const Settings& settings, std::string_view both) {
 
 /// Whether a restitution of soft stops stands in the place of a key, which is a damping of them.
 bool is_damped_otherwise(const Settings& settings, const Key& key) {
-  const auto given = [&](Parameter restitution) { return settings.given(restitution) != nullptr; };
-  if (key.name == "stop_damping") return given("stop_R") || given("stop_R_lower") || given("stop_R_upper");
-  return (key.name == "stop_damping_lower" && (given("stop_R") || given("stop_R_lower"))) ||
-         (key.name == "stop_damping_upper" && (given("stop_R") || given("stop_R_upper")));
+  const auto given = [&](const std::string& restitution) {
+    return settings.given(Parameter::of(restitution).value()) != nullptr;
+  };
+  for (const auto& [damping, restitution] :
+       {std::pair<std::string, std::string>{"stop_damping", "stop_R"}, {"loose_wall_damping", "loose_wall_R"}}) {
+    const bool both = given(restitution), lower = given(restitution + "_lower"), upper = given(restitution + "_upper");
+    if (key.name == damping && (both || lower || upper)) return true;
+    if (key.name == damping + "_lower" && (both || lower)) return true;
+    if (key.name == damping + "_upper" && (both || upper)) return true;
+  }
+  return false;
 }
 
 /// Whether a key is one of a loose mass.

@@ -63,6 +63,13 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 void check_loose_mass(const Settings& settings);
 void check_housing(const Settings& settings, const AxisGroups& groups);
 
+/// Throws ConfigError if the restitution of a soft wall is given for one that is rigid at some point, or something is
+/// asked for that isn't known of soft walls.
+void check_soft_walls(const Settings& settings, const AxisGroups& groups);
+/// Whether a wall of a loose mass is soft at some point of the sweep, or at every one.
+[[nodiscard]] bool is_soft_wall_somewhere(const Settings& settings, Side side);
+[[nodiscard]] bool is_soft_wall_everywhere(const Settings& settings, Side side);
+
 /// Whether there is a loose mass.
 [[nodiscard]] bool has_loose_mass(const Settings& settings);
 /// Whether it rubs on its housing at some point of the sweep.

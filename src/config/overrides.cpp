@@ -176,18 +176,26 @@ void replace_half(Settings& settings, const Pair& pair, Parameter by, Parameter 
   halve(settings, pair, remaining);
 }
 
-/// A soft stop has no restitution.
+/// The keys of the softness and the restitutions of a stop, or of a wall of a loose mass.
+struct KeysOfStop {
+  Parameter stiffness, restitution, soft_restitution;
+};
+constexpr KeysOfStop keys_of_both[] = {{"stop_stiffness", "R", "stop_R"},
+                                       {"loose_wall_stiffness", "loose_R", "loose_wall_R"}};
+
+/// A soft stop, or wall, has no restitution.
 void let_soft_stop_or_restitution_win(Settings& settings, Side side) {
-  const bool lower = side == Side::lower;
-  for (const Parameter soft :
-       {Parameter("stop_stiffness"), lower ? Parameter("stop_stiffness_lower") : Parameter("stop_stiffness_upper")})
-    for (const Parameter rigid : {Parameter("R"), lower ? Parameter("R_lower") : Parameter("R_upper")}) {
-      exclude(settings, soft, rigid);
-      replace(settings, soft, rigid), replace(settings, rigid, soft);
-      for (const Parameter of_soft :
-           {Parameter("stop_R"), lower ? Parameter("stop_R_lower") : Parameter("stop_R_upper")})
-        replace(settings, rigid, of_soft);
-    }
+  const auto either = [side](Parameter both) {
+    return std::array{both,
+                      Parameter::of(std::string(both.key()) + (side == Side::lower ? "_lower" : "_upper")).value()};
+  };
+  for (const KeysOfStop& keys : keys_of_both)
+    for (const Parameter soft : either(keys.stiffness))
+      for (const Parameter rigid : either(keys.restitution)) {
+        exclude(settings, soft, rigid);
+        replace(settings, soft, rigid), replace(settings, rigid, soft);
+        for (const Parameter of_soft : either(keys.soft_restitution)) replace(settings, rigid, of_soft);
+      }
 }
 
 /// The damping of a soft stop is given in one of several ways.
@@ -197,7 +205,7 @@ void let_one_way_to_damp_stops_win(Settings& settings, const std::vector<Pair>& 
                        [](const Pair& pair) { return pair.both.role() == Role::stop_damping; });
   for (const Pair& way : ways)
     for (const Pair& other : ways) {
-      if (way.both == other.both) continue;
+      if (way.both == other.both || way.both.is_loose() != other.both.is_loose()) continue;
       for (const Parameter by : {way.both, way.one, way.other})
         for (const Parameter former : {other.both, other.one, other.other})
           if (by.side() == former.side() || by.is_of_both() || former.is_of_both()) exclude(settings, by, former);

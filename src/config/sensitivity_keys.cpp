@@ -67,9 +67,10 @@ void check_given(const Settings& settings, const Setting& names, Parameter key) 
   if (key.role() == Role::friction && moved != nullptr &&
       std::ranges::any_of(moved->numbers(), [](double amplitude) { return amplitude != 0; }))
     fail(names.location, message + ", which conflicts with 'stop_amplitude'; leave it out");
-  const bool is_of_collision = key == "stop_R" || key == "stop_R_lower" || key == "stop_R_upper";
+  const bool is_of_collision = key.role() == Role::stop_damping && key.key().find("_R") != std::string_view::npos;
   if (is_of_collision && !quantity_given(settings, key))
-    fail(names.location, message + ", and the damping of the stop isn't given by it; name 'stop_damping'");
+    fail(names.location, message + ", and the damping of the " + (key.is_loose() ? "wall" : "stop") +
+                             " isn't given by it; name '" + (key.is_loose() ? "loose_wall" : "stop") + "_damping'");
 }
 
 }  // namespace

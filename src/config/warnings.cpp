@@ -65,13 +65,14 @@ void warn_of_repeats(const Settings& settings, const AxisGroups& groups, std::ve
   }
 }
 
-/// Warns of a damping ratio of a machine's soft stop that was hardly meant to be one, as a coefficient without its
-/// unit.
+/// Warns of a damping ratio of a machine's soft stop or wall that was hardly meant to be one, as a coefficient without
+/// its unit.
 void warn_of_great_ratios(const Settings& settings, std::vector<Warning>& warnings) {
   constexpr double greatest = 2;  // twice critical: R = 0.05 (eq. 55)
   if (!settings.is_si()) return;
-  for (const Parameter damping :
-       {Parameter("stop_damping"), Parameter("stop_damping_lower"), Parameter("stop_damping_upper")}) {
+  for (const Parameter damping : {Parameter("stop_damping"), Parameter("stop_damping_lower"),
+                                  Parameter("stop_damping_upper"), Parameter("loose_wall_damping"),
+                                  Parameter("loose_wall_damping_lower"), Parameter("loose_wall_damping_upper")}) {
     const Setting* const given = settings.given(damping);
     if (given == nullptr || given->quantity != Quantity::number) continue;
     const auto values = given->numbers();
@@ -173,6 +174,15 @@ bool no_word(const Settings& settings) { return !settings.flag("observe", "word"
 bool no_soft_lower(const Settings& settings) { return !is_soft_somewhere(settings, Side::lower); }
 bool no_soft_upper(const Settings& settings) { return !is_soft_somewhere(settings, Side::upper); }
 bool no_soft_stop(const Settings& settings) { return no_soft_lower(settings) && no_soft_upper(settings); }
+bool no_lower_wall(const Settings& settings) {
+  return absent(settings, "loose_lower") && settings.given("loose_gap") == nullptr;
+}
+bool no_upper_wall(const Settings& settings) {
+  return absent(settings, "loose_upper") && settings.given("loose_gap") == nullptr;
+}
+bool no_soft_lower_wall(const Settings& settings) { return !is_soft_wall_somewhere(settings, Side::lower); }
+bool no_soft_upper_wall(const Settings& settings) { return !is_soft_wall_somewhere(settings, Side::upper); }
+bool no_soft_wall(const Settings& settings) { return no_soft_lower_wall(settings) && no_soft_upper_wall(settings); }
 bool no_stops(const Settings& settings) { return no_lower(settings) && no_upper(settings); }
 bool no_impacts(const Settings& settings) { return no_stops(settings) && !has_loose_mass(settings); }
 
@@ -225,6 +235,7 @@ constexpr std::string_view rubbed_out =
     "without a force, since friction brings the mass to a standstill: its values will be NaN";
 constexpr std::string_view or_drive = "give a force, or mode = \"transient\" in [time]";
 constexpr std::string_view or_soft = "give a finite stop_stiffness";
+constexpr std::string_view or_soft_wall = "give a finite loose_wall_stiffness";
 constexpr std::string_view or_stops = "give stops";
 constexpr std::string_view no_harmonic = "without harmonics", or_harmonics = "write e.g. harmonics = 3";
 constexpr std::string_view only_moreau = "without method = \"moreau\"", or_moreau = "write that in [integrator]";
@@ -246,6 +257,11 @@ constexpr Rule rules[] = {
     {"scene", "stop_R", no_stops, "without stops", or_stops},
     {"scene", "stop_R_lower", no_lower, "without a lower stop", "give stop_lower"},
     {"scene", "stop_R_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"scene", "loose_wall_stiffness_lower", no_lower_wall, "without a lower wall", "give loose_lower"},
+    {"scene", "loose_wall_stiffness_upper", no_upper_wall, "without an upper wall", "give loose_upper"},
+    {"scene", "loose_wall_damping", no_soft_wall, "without a soft wall", or_soft_wall},
+    {"scene", "loose_wall_damping_lower", no_soft_lower_wall, "without a soft lower wall", or_soft_wall},
+    {"scene", "loose_wall_damping_upper", no_soft_upper_wall, "without a soft upper wall", or_soft_wall},
     {"sweep", "direction", follows_nothing, "without follow", "name an axis in follow"},
     {"time", "max_periods", transient, in_transient, or_steady},
     {"time", "window", transient, in_transient, or_steady},

@@ -11,9 +11,10 @@
 namespace clatter {
 inline namespace math {
 
-/// Coefficients of a polynomial of degree 6 on [0, 1] in the Bernstein basis; the polynomial lies within their range.
-template <class Number>
-using Bernstein = std::array<Number, 7>;
+/// Coefficients of a polynomial on [0, 1] in the Bernstein basis, of degree 6 unless another one is given; the
+/// polynomial lies within their range.
+template <class Number, std::size_t degree = 6>
+using Bernstein = std::array<Number, degree + 1>;
 
 /// A function at both ends of a step: its value, and its first and second derivative by the part of the step.
 template <class Number>
@@ -71,8 +72,9 @@ template <class Number>
 
 /// The part of a step at which the control polygon of a polynomial that begins at >= 0 first falls below 0: a guess of
 /// its first root. Meaningless if none of the coefficients is negative.
-template <class Number>
-[[nodiscard, gnu::always_inline]] inline Number polygon_root(const Bernstein<Number>& c, std::size_t degree = 6) {
+template <class Number, std::size_t size>
+[[nodiscard, gnu::always_inline]] inline Number polygon_root(const std::array<Number, size>& c,
+                                                             std::size_t degree = size - 1) {
   const auto at = [degree](std::size_t k) {
     return ratio<Number>(static_cast<double>(k), static_cast<double>(degree));
   };
@@ -110,8 +112,9 @@ template <class Number>
 
 /// Splits a polynomial at u (de Casteljau): returns the coefficients of the part before, the last of which is the value
 /// at u; `c` becomes those of the part after.
-[[nodiscard]] inline Bernstein<double> split_off(Bernstein<double>& c, double u) {
-  Bernstein<double> before;
+template <class Number, std::size_t size>
+[[nodiscard]] std::array<Number, size> split_off(std::array<Number, size>& c, const Number& u) {
+  std::array<Number, size> before;
   for (std::size_t n = c.size(); n-- > 0;) {
     before[c.size() - 1 - n] = c[0];
     for (std::size_t i = 0; i < n; ++i) c[i] += u * (c[i + 1] - c[i]);
@@ -120,7 +123,52 @@ template <class Number>
 }
 
 /// The value at u.
-[[nodiscard]] inline double value_at(Bernstein<double> c, double u) { return split_off(c, u).back(); }
+template <class Number, std::size_t size>
+[[nodiscard]] Number value_at(std::array<Number, size> c, const Number& u) {
+  return split_off(c, u).back();
+}
+
+/// The polynomial sum of p[k] u^k in the Bernstein basis: b_i is the sum of binomial(i, k)/binomial(degree, k) p[k].
+template <class Number, std::size_t size>
+[[nodiscard]] std::array<Number, size> from_powers(std::array<Number, size> p) {
+  double binomial = 1;
+  for (std::size_t k = 0; k < size; ++k) {
+    p[k] = p[k] / binomial;
+    binomial *= static_cast<double>(size - 1 - k) / static_cast<double>(k + 1);
+  }
+  for (std::size_t from = size - 1; from > 0; --from)
+    for (std::size_t i = from; i < size; ++i) p[i] += p[i - 1];
+  return p;
+}
+
+/// The coefficients of a polynomial by powers of u, to rounding of the largest.
+template <class Number, std::size_t size>
+[[nodiscard]] std::array<Number, size> to_powers(std::array<Number, size> c) {
+  for (std::size_t from = 1; from < size; ++from)
+    for (std::size_t i = size - 1; i >= from; --i) c[i] -= c[i - 1];
+  double binomial = 1;
+  for (std::size_t k = 0; k < size; ++k) {
+    c[k] *= binomial;
+    binomial *= static_cast<double>(size - 1 - k) / static_cast<double>(k + 1);
+  }
+  return c;
+}
+
+/// The same polynomial as one of a higher degree.
+template <std::size_t degree, class Number, std::size_t size>
+[[nodiscard]] Bernstein<Number, degree> raised_to(const std::array<Number, size>& c) {
+  static_assert(degree + 1 >= size);
+  if constexpr (degree + 1 == size) {
+    return c;
+  } else {
+    std::array<Number, size + 1> higher;
+    for (std::size_t i = 0; i <= size; ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(size);
+      higher[i] = i == 0 ? c[0] : i == size ? c[size - 1] : Number(share * c[i - 1] + (1 - share) * c[i]);
+    }
+    return raised_to<degree>(higher);
+  }
+}
 
 /// The uncertainty of the middle coefficient if step^6 |y^(6)| <= bound over the step (eq. 13).
 template <class Number>
@@ -137,14 +185,16 @@ template <class Number>
 
 /// The first u in (0, 1], to rounding, at which a polynomial that begins at >= 0 becomes negative; roots at 0 don't
 /// count.
-template <class Number>
+template <class Number, std::size_t highest = 6>
 class FirstRoot {
+  using Coefficients = Bernstein<Number, highest>;
+
  public:
-  [[nodiscard]] static std::optional<Number> of(const Bernstein<Number>& c) { return search({c, 6}, 0); }
+  [[nodiscard]] static std::optional<Number> of(const Coefficients& c) { return search({c, highest}, 0); }
 
  private:
   struct Piece {
-    Bernstein<Number> c;
+    Coefficients c;
     std::size_t degree;
 
     void divide_by_u() {
@@ -153,8 +203,8 @@ class FirstRoot {
       --degree;
     }
     /// Coefficients of (1 + t)^degree p(t/(1 + t)) by powers of t, which has p's roots and costs less to evaluate.
-    [[nodiscard]] Bernstein<Number> by_powers() const {
-      Bernstein<Number> q = c;
+    [[nodiscard]] Coefficients by_powers() const {
+      Coefficients q = c;
       double binomial = 1;
       for (std::size_t i = 0; i <= degree; ++i) {
         q[i] *= binomial;
@@ -181,7 +231,7 @@ class FirstRoot {
     const Number guess = polygon_root(p.c, p.degree);
     const bool from_right = abs(p.c[p.degree]) < abs(p.c[0]);
     if (from_right) std::reverse(p.c.begin(), p.c.begin() + static_cast<std::ptrdiff_t>(p.degree) + 1);
-    const Bernstein<Number> q = p.by_powers();
+    const Coefficients q = p.by_powers();
     const Number close =
         sqrt(epsilon<Number>()) / 8;  // the next iterate is exact to rounding: convergence is quadratic
     const bool falls = q[0] > 0;

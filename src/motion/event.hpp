@@ -25,11 +25,15 @@ struct Event {
     strike,      ///< of a loose mass on a wall of its housing
     press,       ///< a loose mass comes to rest on a wall; the rest of its chatter is lost at once
     hold,        ///< a wall presses a loose mass, or friction holds it, so that it moves with the main mass
+    wall_touch,  ///< of a loose mass at the place of a soft wall, where contact begins
+    wall_renewal,     ///< of its contact with a soft wall, whose force rises from zero, beyond its place
+    wall_separation,  ///< of it from a soft wall, whose force falls to zero
   };
   /// The word for a kind.
   [[nodiscard]] static constexpr std::string_view word(Kind kind) {
-    constexpr std::array<std::string_view, 11> words{"impact", "rest",     "chatter", "touch", "renewal", "separation",
-                                                     "stick",  "reversal", "strike",  "press", "hold"};
+    constexpr std::array<std::string_view, 14> words{
+        "impact",   "rest",   "chatter", "touch", "renewal",    "separation",   "stick",
+        "reversal", "strike", "press",   "hold",  "wall touch", "wall renewal", "wall separation"};
     return words[static_cast<std::size_t>(kind)];
   }
   /// The main mass at an event of a loose one: its displacement, and its velocities on both sides.
@@ -59,17 +63,24 @@ struct Event {
   [[nodiscard]] bool lasts() const {
     return kind == Kind::rest || kind == Kind::chatter || kind == Kind::stick || kind == Kind::hold;
   }
+  /// Whether it is one of a loose mass with a soft wall.
+  [[nodiscard]] bool is_of_soft_wall() const {
+    return kind == Kind::wall_touch || kind == Kind::wall_renewal || kind == Kind::wall_separation;
+  }
   /// Whether a contact begins or ends with it, with speed.
   [[nodiscard]] bool is_contact() const { return !lasts() && kind != Kind::reversal && kind != Kind::press; }
   /// With which the mass comes to it; 0 where it stays, in a chatter, too.
   [[nodiscard]] double velocity() const { return lasts() ? 0.0 : before; }
   [[nodiscard]] double speed() const { return std::abs(velocity()); }
 
-  /// An event of a loose mass as one of a mass between stops, which its walls are: a strike as an impact, a hold as a
-  /// rest, by friction alone as a stick. Others are as they are.
+  /// An event of a loose mass as one of a mass between stops, which its walls are: a strike as an impact, one with a
+  /// soft wall as that with a soft stop, a hold as a rest, by friction alone as a stick. Others are as they are.
   [[nodiscard]] Event in_housing() const {
     Event same = *this;
     if (kind == Kind::strike) same.kind = Kind::impact;
+    if (kind == Kind::wall_touch) same.kind = Kind::touch;
+    if (kind == Kind::wall_renewal) same.kind = Kind::renewal;
+    if (kind == Kind::wall_separation) same.kind = Kind::separation;
     if (kind == Kind::hold)  // the arc is that of the main mass
       same.kind = side == Side::none ? Kind::stick : Kind::rest, same.has_arc = false;
     same.of_wall = same.kind != kind;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "motion/coupled_arc.hpp"
 #include "motion/event.hpp"
 #include "motion/housed_arc.hpp"
 #include "motion/linear_maps.hpp"
@@ -32,23 +33,20 @@ class LooseTangent {
     const auto start = arc.start();
     const bool carries = constants.carried != 0;
     const bool is_held = constants.h == 0 && constants.k == 0 && constants.f == 0 && constants.load == 0;
-    const double a_loose = carries ? start.a : alone_on(arc);
-    if (is_rough_ && !std::exchange(is_told_, false)) change_hold(carries, a_loose, is_held);
+    const double load = load_on(arc), a_loose = carries ? start.a : loose_acceleration(arc, 0.0);
+    if (is_rough_ && !std::exchange(is_told_, false)) change_hold(carries, load, is_held);
     settle(start.a, a_loose);
     if (sticks_ && !is_held)
       release(start.a, a_loose, constants.spring(1.0) / (constants.f * constants.nu * start.cosine));
     if constexpr (Housed<A>) on_wall_ = wall_of(arc.loose) != Side::none;
     const Row place = place_in_housing();
-    const auto p = constants.propagator(length);
-    const Row x = combined(p.a, map_[0], p.b, map_[1]), v = combined(-constants.spring(p.b), map_[0], p.c, map_[1]);
-    map_[0] = x, map_[1] = v;
-    carried_ = constants.carried, alone_ = alone_on(arc), begun_ = true;
-    if (carried_ != 0)
-      move_with_main(place), lose(on_wall_ ? 2 : 1);
-    else
-      map_[2] = combined(1, map_[2], length, map_[3]);
+    flow(arc, length);
+    carried_ = constants.carried, load_ = load, begun_ = true;
+    held_ = held_in(arc);
+    alone_ = carries ? load - held_.push / rule_.ratio : loose_acceleration(arc, length);
+    if (carried_ != 0) move_with_main(place), lose(on_wall_ ? 2 : 1);
     h_ = constants.h, k_ = constants.spring(1.0), friction_ = constants.friction;
-    force_ = constants.force(arc.phase_after(length).sine);
+    force_ = constants.force(arc.phase_after(length).sine) + push_on(arc, length);
     if (is_rough_) note_end(arc, length, is_held);
     rescale();
   }
@@ -67,6 +65,8 @@ class LooseTangent {
         return stick(event);
       case Event::Kind::strike:
         return strike(event.before, event.main);
+      case Event::Kind::wall_touch:
+        return touch_wall(event.before, event.main);
       case Event::Kind::press:
         return press();
       default:
@@ -97,7 +97,7 @@ class LooseTangent {
   [[nodiscard]] double acceleration(double x, double v) const { return force_ - k_ * x - 2 * h_ * v; }
   /// The same alone, when the loose mass that it has carried goes on by itself.
   [[nodiscard]] double acceleration_alone(double x, double v, double friction) const {
-    return (1 + carried_) * (acceleration(x, v) - friction) - carried_ * loose_.load;
+    return (1 + carried_) * (acceleration(x, v) - friction) - carried_ * loose_.load + held_.push;
   }
   /// The change of z, which a wall doesn't leave.
   [[nodiscard]] Row place_in_housing() const { return on_wall_ ? Row{} : combined(1, map_[2], -1, map_[0]); }
@@ -106,10 +106,58 @@ class LooseTangent {
 
   /// y'' of a loose mass by itself.
   template <class A>
-  [[nodiscard]] double alone_on(const A& arc) const {
+  [[nodiscard]] double load_on(const A& arc) const {
     if constexpr (Housed<A>)
       if constexpr (requires { arc.loose.load(); }) return arc.loose.load();
     return loose_.load;
+  }
+  /// The push of a soft wall on the main mass a time s after the start of an arc.
+  template <class A>
+  [[nodiscard]] static double push_on(const A& arc, double s) {
+    if constexpr (Housed<A>)
+      if constexpr (requires { arc.loose.coupling(); }) {
+        const Motion<double> z = arc.loose.at(s);
+        return arc.loose.coupling().push(z.offset, z.v);
+      }
+    return 0.0;
+  }
+  /// The soft wall against which friction holds a loose mass: its push on the main mass, and its stiffness.
+  struct HeldInWall {
+    double push = 0.0, stiffness = 0.0;
+  };
+  template <class A>
+  [[nodiscard]] HeldInWall held_in(const A& arc) const {
+    if constexpr (Housed<A>)
+      if constexpr (requires { arc.loose.place; })
+        for (const Side side : {Side::lower, Side::upper}) {
+          const SoftStop<double> wall = soft_wall_at<double>(loose_, side);
+          const double offset = arc.loose.place - wall.position;
+          if (wall.side != Side::none && wall.into(offset) > 0) return {wall.stiffness * offset, wall.stiffness};
+        }
+    return {};
+  }
+  /// y'' there of a loose mass that doesn't move with the main one.
+  template <class A>
+  [[nodiscard]] double loose_acceleration(const A& arc, double s) const {
+    return load_on(arc) - push_on(arc, s) / rule_.ratio;
+  }
+  /// Carries the changes over an arc, of a loose mass by itself those of y, too.
+  template <class A>
+  void flow(const A& arc, double length) {
+    if constexpr (Housed<A>)
+      if constexpr (requires { arc.loose.coupling(); }) {
+        const LooseJacobian flow = flow_of(arc.loose, length), from = map_;
+        for (std::size_t i = 0; i < map_.size(); ++i) {
+          map_[i] = combined(flow[i][0], from[0], flow[i][1], from[1]);
+          add(map_[i], flow[i][2], from[2]), add(map_[i], flow[i][3], from[3]);
+        }
+        return;
+      }
+    const auto p = arc.constants().propagator(length);
+    const Row x = combined(p.a, map_[0], p.b, map_[1]),
+              v = combined(-arc.constants().spring(p.b), map_[0], p.c, map_[1]);
+    map_[0] = x, map_[1] = v;
+    if (arc.constants().carried == 0) map_[2] = combined(1, map_[2], length, map_[3]);
   }
   /// What the end of an arc tells if friction in the housing has come to hold the loose mass, or no longer does so.
   template <class A>
@@ -119,13 +167,16 @@ class LooseTangent {
   }
   /// Friction in the housing stops the loose mass, or turns it, where z' falls to 0, and lets it go where x'' passes
   /// the level (eq. 81). A main mass that something holds goes as that turns, or lets the loose one go as it goes.
-  void change_hold(bool carries, double a_loose, bool is_held) {
-    if (carried_ == 0 && (carries || a_loose != alone_)) {
+  void change_hold(bool carries, double load, bool is_held) {
+    if (carried_ == 0 && (carries || load != load_)) {
       const double towards = end_.a - alone_;
       expect(combined(1 / towards, map_[3], -1 / towards, map_[1]), end_.a, alone_);
       sticks_ = sticks_ && is_held;
     } else if (carried_ != 0 && !carries && !end_.is_held) {
-      expect(combined(k_ / end_.jerk, map_[0], 2 * h_ / end_.jerk, map_[1]), end_.a, end_.a);
+      Row late = combined(k_ / end_.jerk, map_[0], 2 * h_ / end_.jerk, map_[1]);
+      if (held_.stiffness != 0)
+        add(late, -held_.stiffness / rule_.ratio / end_.jerk, combined(1, map_[2], -1, map_[0]));
+      expect(late, end_.a, end_.a);
     }
     is_told_ = false;
   }
@@ -197,7 +248,7 @@ class LooseTangent {
   /// An impact on a wall with z' = w.
   void strike(double w, const Event::Main& main) {
     if (w == 0) return;
-    const double drag = 2 * rule_.ratio * (loose_.load - alone_);  // by how much friction in the housing turns round
+    const double drag = 2 * rule_.ratio * (loose_.load - load_);  // by how much friction in the housing turns round
     const double a = acceleration(main.place, main.before), a_after = acceleration(main.place, main.after) - drag,
                  towards = alone_ - a;
     const double kick = -rule_.share() * rule_.law_for(w).jump(1.0), back = kick / rule_.ratio;  // of x' and -y' by z'
@@ -208,6 +259,11 @@ class LooseTangent {
     add(map_[3], -back, dw), add(map_[3], (back * towards + drag / rule_.ratio) / w, z);
     expect(combined(-1 / w, z, 0, z), a_after, alone_ + drag / rule_.ratio);
     sticks_ = false, rescale();
+  }
+  /// The damper of a soft wall pushes both masses from the touch on.
+  void touch_wall(double w, const Event::Main& main) {
+    const double a = acceleration(main.place, main.before);
+    expect(combined(-1 / w, map_[2], 1 / w, map_[0]), a, alone_);
   }
   /// Both masses keep their common centre and momentum.
   void press() {
@@ -249,8 +305,10 @@ class LooseTangent {
   double force_ = 0;            ///< the force on the main mass at x = 0 at its end,
   double friction_ = 0;         ///< of which so much is friction,
   double carried_ = 0;          ///< and the loose mass, if it moves with the main one
+  HeldInWall held_{};           ///< against which friction holds it then,
   bool on_wall_ = true;         ///< which presses it then; else friction holds it, at any place
-  double alone_ = loose_.load;  ///< y'' of the loose mass beside the last arc, by itself
+  double load_ = loose_.load;   ///< y'' of the loose mass beside the last arc, without the push of a soft wall,
+  double alone_ = loose_.load;  ///< and with that at its end
   bool begun_ = false;          ///< there is a last arc
   bool is_told_ = true;         ///< an event tells what follows it
   /// With friction in the housing, at the end of the last arc.

@@ -16,6 +16,8 @@ struct LooseState {
   bool pressed = false;    ///< the wall presses it, so that it moves with the main mass
   bool released = false;   ///< the wall lets it go at this instant: z' = 0, and z'' is exactly 0
   bool may_part = false;   ///< pressed, but an event of the main mass has just changed its acceleration
+  bool within = false;     ///< the wall is soft, and it is beyond its place, or enters it
+  bool pushed = false;     ///< that wall pushes both masses apart; false: it relaxes
 };
 
 /// The state of a run. Time is a forcing phase and a whole number of periods, so that no growing tau stands inside a

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "motion/arc_constants.hpp"
 #include "motion/linear_maps.hpp"
+#include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
 #include "scene/scene.hpp"
 
@@ -81,6 +83,18 @@ template <class Number, Effects E, class Other>
   return h * h < k;
 }
 
+/// A soft wall: a spring and a damper without mass between both masses, whose damping ratio counts by the mass of both
+/// that they move. Without `side` the wall is rigid, or there is none.
+template <class Number, class Given>
+[[nodiscard]] SoftStop<Number> soft_wall_at(const BasicLooseMass<Given>& loose, Side side) {
+  using std::sqrt;
+  if (!is_soft(loose, side)) return {};
+  const bool upper = side == Side::upper;
+  const Number ratio(loose.ratio), stiffness(upper ? loose.stiffness_upper : loose.stiffness_lower);
+  return {side, Number(upper ? loose.upper : loose.lower), stiffness,
+          Number(upper ? loose.damping_upper : loose.damping_lower) * sqrt(Number(stiffness * (ratio / (1 + ratio))))};
+}
+
 /// The housing of a loose mass, whose walls stop it, and on which it may rub.
 template <class Number>
 struct Walls {
@@ -88,7 +102,8 @@ struct Walls {
   explicit Walls(const BasicLooseMass<Other>& loose)
       : rule(loose),
         load(loose.load),
-        places{.lower = static_cast<double>(loose.lower), .upper = static_cast<double>(loose.upper)} {
+        places{.lower = static_cast<double>(loose.lower), .upper = static_cast<double>(loose.upper)},
+        soft{soft_wall_at<Number>(loose, Side::lower), soft_wall_at<Number>(loose, Side::upper)} {
     if (!has_loose_friction(loose)) return;
     hold = Number(loose.friction_static) / rule.ratio;
   }
@@ -107,13 +122,30 @@ struct Walls {
   [[nodiscard]] Number place(Side side) const { return Number(side == Side::upper ? places.upper : places.lower); }
   /// Whether the loose mass rubs on its housing.
   [[nodiscard]] bool is_rough() const { return hold > 0; }
+  [[nodiscard]] bool is_soft(Side side) const { return side != Side::none && soft[index_of(side)].side == side; }
+  /// Whether a loose mass lies on a rigid wall.
+  [[nodiscard]] bool lies_on_wall(const LooseState<Number>& loose) const {
+    return loose.wall != Side::none && loose.place == 0 && !is_soft(loose.wall);
+  }
+  /// The push of the soft wall that a loose mass is in contact with, along x on the main mass, over that.
+  [[nodiscard]] Number push(const LooseState<Number>& loose) const {
+    if (!loose.pushed) return Number(0);
+    const SoftStop<Number>& wall = soft[index_of(loose.wall)];
+    return wall.stiffness * loose.place + 2 * wall.damping * loose.speed;
+  }
+  /// Its rate beside a main mass that stands.
+  [[nodiscard]] Number rate_of_push(const LooseState<Number>& loose) const {
+    const SoftStop<Number>& wall = soft[index_of(loose.wall)];
+    return wall.stiffness * loose.speed + 2 * wall.damping * (load - push(loose) / rule.ratio);
+  }
 
   WallRule<Number> rule;
-  Number load;                  ///< y''; of a loose mass that slides with the friction
-  Stops places;                 ///< of the walls
-  Number hold{};                ///< the static level of the friction, as an acceleration of the loose mass
-  Side slides_to = Side::none;  ///< the side to which the loose mass slides
-  Number jump{};                ///< by how much x'' differs from y'' at the instant at which friction lets it slide
+  Number load;                           ///< y''; of a loose mass that slides with the friction
+  Stops places;                          ///< of the walls
+  std::array<SoftStop<Number>, 2> soft;  ///< [wall]; of a rigid one without a side
+  Number hold{};                         ///< the static level of the friction, as an acceleration of the loose mass
+  Side slides_to = Side::none;           ///< the side to which the loose mass slides
+  Number jump{};  ///< by how much x'' differs from y'' at the instant at which friction lets it slide
 };
 
 /// The place of a loose mass in its housing, z, and z'.

@@ -19,8 +19,10 @@ class Period::Observer {
     moves_ = moves_ || length > 0;
   }
   void event(const motion::Event& event) {
-    const bool begins_contact = event.is_contact() && event.kind != motion::Event::Kind::separation;
-    const bool on_wall = event.kind == motion::Event::Kind::strike;
+    using Kind = motion::Event::Kind;
+    const bool begins_contact =
+        event.is_contact() && event.kind != Kind::separation && event.kind != Kind::wall_separation;
+    const bool on_wall = event.kind == Kind::strike || event.is_of_soft_wall();
     if (begins_contact && on_wall == is_of_walls_ && !(first_speed_ >= 0.0)) first_speed_ = event.speed();
   }
   /// Takes over the speed before the first impact, NaN if there is none, of motion that isn't at rest throughout.

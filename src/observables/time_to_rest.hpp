@@ -86,7 +86,7 @@ class TimeToRest::Observer {
   /// A loose mass in flight.
   template <class Flight>
   [[nodiscard]] static bool stands(const Flight& flight) {
-    return flight.start().v == 0 && flight.load() == 0;
+    return flight.start().v == 0 && flight.start().a == 0;
   }
 
   bool is_held_ = false;           ///< the main mass, by what the next arc shows

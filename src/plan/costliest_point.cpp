@@ -62,8 +62,8 @@ double bounces_in_housing(const point::Problem& scene) {
   const LooseMass& loose = scene.loose;
   if (has_loose_friction(loose)) return 0;
   const double both = 1 + loose.ratio, wall = loose.load < 0 ? loose.lower : loose.upper;
-  if ((loose.load < 0 ? loose.restitution_lower : loose.restitution_upper) < 1 || loose.load == 0 || std::isinf(wall))
-    return 0;
+  const Side side = loose.load < 0 ? Side::lower : Side::upper;
+  if (takes_energy(walls_of(loose), side) || is_soft(loose, side) || loose.load == 0 || std::isinf(wall)) return 0;
   Oscillator o = scene.oscillator;
   o.damping /= both, o.forcing /= both, o.stiffness /= both;
   const double shaken = o.forcing == 0 ? 0.0 : o.frequency * o.frequency * steady_response(o).amplitude;

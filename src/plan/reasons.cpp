@@ -166,9 +166,16 @@ Reason friction_reason(const point::Problem& scene) {
 Reason loose_reason(const point::Problem& scene) {
   const LooseMass& loose = scene.loose;
   const Oscillator& o = scene.oscillator;
+  const Stops walls = walls_of(loose);
+  const auto law_of = [&](Side side) {
+    const bool lower = side == Side::lower;
+    if (!is_soft(walls, side)) return "R = " + text(lower ? walls.restitution_lower : walls.restitution_upper);
+    return "stiffness = " + text(lower ? walls.stiffness_lower : walls.stiffness_upper) +
+           ", damping = " + text(lower ? walls.damping_lower : walls.damping_upper);
+  };
+  const std::string lower = law_of(Side::lower), upper = law_of(Side::upper);
   std::string why = "loose_mass = " + text(loose.ratio) + ", walls at " + text(loose.lower) + " and " +
-                    text(loose.upper) + ", R = " + text(loose.restitution_lower) +
-                    (loose.restitution_upper == loose.restitution_lower ? "" : " and " + text(loose.restitution_upper));
+                    text(loose.upper) + ", " + lower + (upper == lower ? "" : " and " + upper);
   const double middle = equilibrium_of(o), y = scene.start.displacement + loose.place - middle;
   if (has_loose_friction(loose)) {
     why += ", loose_friction = " + text(loose.friction);

@@ -93,11 +93,11 @@ void examine(const sweep::Sweep& sweep, const Sample::Draw& draw, bool lanes_run
   const bool in_lanes = lanes_run && lanes::accepts({0, 0, scene, effects});
   survey.add({effects, draw.weight, example, periods, in_lanes ? Bounds{} : work, in_lanes ? work : Bounds{}});
   survey.lower.add({needs.effects.lower, to_lower}), survey.upper.add({needs.effects.upper, to_upper});
-  survey.lasting =
-      survey.lasting ||
-      (scene.time.mode == steady::Mode::steady && scene.oscillator.forcing != 0 && scene.oscillator.damping == 0 &&
-       !needs.effects.dissipation && !needs.effects.friction &&
-       !(needs.effects.loose && std::min(scene.loose.restitution_lower, scene.loose.restitution_upper) < 1));
+  const Stops walls = walls_of(scene.loose);
+  const bool strikes_take = takes_energy(walls, Side::lower) || takes_energy(walls, Side::upper);
+  survey.lasting = survey.lasting || (scene.time.mode == steady::Mode::steady && scene.oscillator.forcing != 0 &&
+                                      scene.oscillator.damping == 0 && !needs.effects.dissipation &&
+                                      !needs.effects.friction && !(needs.effects.loose && strikes_take));
 }
 
 /// Examines points on several threads, in blocks that are the same for every number of threads, and so are the sums.

@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "motion/arc.hpp"
+#include "motion/coupled_arc.hpp"
 #include "motion/state.hpp"
 #include "stepping/carrying.hpp"
 
@@ -22,7 +23,29 @@ template <class Number>
           .pressed = state.pressed,
           .chatters = state.chatters,
           .loose = {state.loose.wall, static_cast<double>(state.loose.place), static_cast<double>(state.loose.speed),
-                    state.loose.pressed, state.loose.released, state.loose.may_part}};
+                    state.loose.pressed, state.loose.released, state.loose.may_part, state.loose.within,
+                    state.loose.pushed}};
+}
+
+/// A step beside a soft wall in more digits, rounded to double.
+template <class Number>
+[[nodiscard]] motion::CoupledArc<double> in_double(const motion::CoupledArc<Number>& arc) {
+  const auto d = [](const Number& y) { return static_cast<double>(y); };
+  const motion::Motion<Number>& m = arc.start();
+  const auto& of = arc.constants();
+  auto constants = motion::AnyConstants<double>::of(d(of.h), d(of.f), d(of.nu), d(of.load), d(of.k));
+  constants.stop = {of.stop.side, d(of.stop.position), d(of.stop.stiffness), d(of.stop.damping)};
+  constants.carried = d(of.carried), constants.friction = d(of.friction), constants.rubbing = d(of.rubbing);
+  constants.origin = d(of.origin), constants.balance = d(of.balance), constants.equilibrium = d(of.equilibrium);
+  constants.period = d(of.period);
+  motion::Course<double> course{};
+  for (std::size_t k = 0; k < course.way.size(); ++k)
+    course.way[k] = d(arc.course().way[k]), course.velocity[k] = d(arc.course().velocity[k]);
+  return {constants,
+          {d(m.offset), d(m.x), d(m.v), d(m.a), d(m.sine), d(m.cosine)},
+          d(arc.anchor()),
+          d(arc.length()),
+          course};
 }
 
 /// Shows the arcs of a run in more digits in double, each rounded at its start: an error of a few roundings, which

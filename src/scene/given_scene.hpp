@@ -25,6 +25,10 @@ struct BasicGivenScene : BasicScene<Number> {
   Number stop_damper_upper{0.0};                            ///< damping of the upper soft stop, N s/m, >= 0
   Number stop_restitution_lower{1.0};  ///< of an isolated collision with the lower soft stop, > 0, <= 1 (eq. 55)
   Number stop_restitution_upper{1.0};  ///< of an isolated collision with the upper soft stop, > 0, <= 1 (eq. 55)
+  Number wall_damper_lower{0.0};       ///< damping of the lower soft wall of a loose mass, N s/m, >= 0
+  Number wall_damper_upper{0.0};       ///< damping of the upper soft wall of a loose mass, N s/m, >= 0
+  Number wall_restitution_lower{1.0};  ///< of an isolated collision with the lower soft wall, > 0, <= 1 (eq. 55)
+  Number wall_restitution_upper{1.0};  ///< of an isolated collision with the upper soft wall, > 0, <= 1 (eq. 55)
   /// Period of the free motion that the start lies on, in place of x0 and v0 (eq. 36); NaN: these are the start.
   Number start_period{std::numeric_limits<double>::quiet_NaN()};
   bool is_si = false;  ///< given in [machine]
@@ -78,14 +82,21 @@ template <class Number, class Unit>
   h = h * T + given.damper * T / (2 * m);
   if (!is_always_zero(given.damping_ratio)) h += given.damping_ratio * sqrt(abs(k));
   if (is_finite(given.quality)) h += sqrt(abs(k)) / (2 * given.quality);
-  auto& stops = scene.stops;
-  const auto soften = [&](Number& kappa, Number& zeta, const Number& damper) {
-    if (!is_finite(kappa)) return;  // c = 2 zeta (kappa m)^(1/2); of a rigid stop nothing is left
+  const auto soften = [&](Number& kappa, Number& zeta, const Number& damper, const Number& mass) {
+    if (!is_finite(kappa)) return;  // c = 2 zeta (kappa mass)^(1/2); of a rigid stop nothing is left
     kappa = kappa * (T * T / m);
-    if (!is_always_zero(damper)) zeta += damper * (T / (2 * m * sqrt(kappa)));
+    if (!is_always_zero(damper)) zeta += damper * (T / (2 * m * sqrt(kappa * mass)));
   };
-  soften(stops.stiffness_lower, stops.damping_lower, given.stop_damper_lower);
-  soften(stops.stiffness_upper, stops.damping_upper, given.stop_damper_upper);
+  auto& stops = scene.stops;
+  const Number one(1);
+  soften(stops.stiffness_lower, stops.damping_lower, given.stop_damper_lower, one);
+  soften(stops.stiffness_upper, stops.damping_upper, given.stop_damper_upper, one);
+  auto& loose = scene.loose;
+  if (has_loose_mass(loose)) {
+    const Number reduced = reduced_mass(loose);
+    soften(loose.stiffness_lower, loose.damping_lower, given.wall_damper_lower, reduced);
+    soften(loose.stiffness_upper, loose.damping_upper, given.wall_damper_upper, reduced);
+  }
   scene.start.velocity = scene.start.velocity * T;
   return scene;
 }
@@ -117,6 +128,8 @@ template <class Number, class Unit>
   complete(scene.loose.friction, scene.loose.friction_static);
   detail::damp(scene.stops.stiffness_lower, given.stop_restitution_lower, scene.stops.damping_lower);
   detail::damp(scene.stops.stiffness_upper, given.stop_restitution_upper, scene.stops.damping_upper);
+  detail::damp(scene.loose.stiffness_lower, given.wall_restitution_lower, scene.loose.damping_lower);
+  detail::damp(scene.loose.stiffness_upper, given.wall_restitution_upper, scene.loose.damping_upper);
   if (is_finite(
           given.start_period)) {  // just after the contact with the lower stop, a quarter of the period from x = 0
     scene.start.displacement = scene.stops.lower;

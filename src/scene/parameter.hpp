@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -74,14 +75,20 @@ class Parameter {
 /// Some of the parameters, in the order of the table.
 class ParameterSet {
  public:
-  constexpr void insert(Parameter parameter) { rows_ |= std::uint64_t{1} << parameter.index(); }
-  [[nodiscard]] constexpr bool contains(Parameter parameter) const { return (rows_ >> parameter.index() & 1) != 0; }
-  [[nodiscard]] constexpr bool empty() const { return rows_ == 0; }
+  constexpr void insert(Parameter parameter) { rows_[parameter.index() / 64] |= bit_of(parameter); }
+  [[nodiscard]] constexpr bool contains(Parameter parameter) const {
+    return (rows_[parameter.index() / 64] & bit_of(parameter)) != 0;
+  }
+  [[nodiscard]] constexpr bool empty() const { return rows_ == std::array<std::uint64_t, 2>{}; }
   [[nodiscard]] std::vector<Parameter> list() const;
 
  private:
-  static_assert(detail::table<double>.size() <= 64);
-  std::uint64_t rows_ = 0;  ///< a bit each
+  [[nodiscard]] static constexpr std::uint64_t bit_of(Parameter parameter) {
+    return std::uint64_t{1} << parameter.index() % 64;
+  }
+
+  static_assert(detail::table<double>.size() <= 128);
+  std::array<std::uint64_t, 2> rows_{};  ///< a bit each
 };
 
 /// Sets a number of a scene. A key of both stops sets that of each; `xs` and `gap` place them at -|value| and +|value|.

@@ -52,15 +52,16 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
     effects.lower = std::isfinite(stops.lower) && !(needs.reach < needs.lower_gap);
     effects.upper = std::isfinite(stops.upper) && !(needs.reach < needs.upper_gap);
   }
-  const auto loses = [](bool soft, double R, double zeta) { return soft ? !(zeta <= 0) : !(R >= 1); };
   effects.soft = (effects.lower && soft_lower) || (effects.upper && soft_upper);
-  effects.dissipation = (effects.lower && loses(soft_lower, stops.restitution_lower, stops.damping_lower)) ||
-                        (effects.upper && loses(soft_upper, stops.restitution_upper, stops.damping_upper));
+  effects.dissipation =
+      (effects.lower && takes_energy(stops, Side::lower)) || (effects.upper && takes_energy(stops, Side::upper));
   // friction holds a mass that is pulled away from a stop, too
   const double push =
       (std::abs(o.forcing) + scene.friction.static_level) * (1 + 4 * std::numeric_limits<double>::epsilon());
   // and so is the pull of a loose mass that a wall presses, or that rubs
-  const double pull = push + std::abs(scene.loose.ratio * scene.loose.load) + scene.loose.friction_static;
+  const double pull = has_soft_wall(scene.loose)  // which may press it with any force
+                          ? infinity
+                          : push + std::abs(scene.loose.ratio * scene.loose.load) + scene.loose.friction_static;
   effects.rest = (effects.lower && !soft_lower && !(pull < constant_force(o, stops.lower))) ||
                  (effects.upper && !soft_upper && !(pull < -constant_force(o, stops.upper)));
   return needs;

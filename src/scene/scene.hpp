@@ -50,9 +50,20 @@ template <class Number, class Other>
   same.start = {n(start.displacement), n(start.velocity), n(start.phase)};
   same.shaking = {n(shaking.stops), n(shaking.base), n(shaking.lead), n(shaking.phase)};
   same.friction = {n(friction.kinetic), n(friction.static_level)};
-  same.loose = {
-      n(loose.ratio), n(loose.lower), n(loose.upper),    n(loose.restitution_lower), n(loose.restitution_upper),
-      n(loose.load),  n(loose.place), n(loose.velocity), n(loose.friction),          n(loose.friction_static)};
+  same.loose = {.ratio = n(loose.ratio),
+                .lower = n(loose.lower),
+                .upper = n(loose.upper),
+                .restitution_lower = n(loose.restitution_lower),
+                .restitution_upper = n(loose.restitution_upper),
+                .stiffness_lower = n(loose.stiffness_lower),
+                .stiffness_upper = n(loose.stiffness_upper),
+                .damping_lower = n(loose.damping_lower),
+                .damping_upper = n(loose.damping_upper),
+                .load = n(loose.load),
+                .place = n(loose.place),
+                .velocity = n(loose.velocity),
+                .friction = n(loose.friction),
+                .friction_static = n(loose.friction_static)};
   return same;
 }
 
@@ -65,7 +76,10 @@ template <class Number, class Other>
   const Oscillator& o = scene.oscillator;
   const LooseMass& loose = scene.loose;
   const bool is_housed = std::isfinite(loose.lower) && std::isfinite(loose.upper);
-  const bool is_mirrored = is_housed && loose.restitution_lower == loose.restitution_upper && loose.load == 0;
+  const bool has_equal_walls = loose.restitution_lower == loose.restitution_upper &&
+                               loose.stiffness_lower == loose.stiffness_upper &&
+                               loose.damping_lower == loose.damping_upper;
+  const bool is_mirrored = is_housed && has_equal_walls && loose.load == 0;
   if (has_loose_mass(loose) && !is_mirrored) return std::nullopt;
   const bool bounded = std::isfinite(stops.lower) && std::isfinite(stops.upper);
   if (!bounded && (std::isfinite(stops.lower) || std::isfinite(stops.upper))) return std::nullopt;

@@ -86,6 +86,13 @@ struct Restitution {
   [[nodiscard]] Number derivative(const Number& /*before*/) const { return -R; }
 };
 
+/// Whether contacts with a stop take energy: a soft one by its damper, a rigid one by its restitution.
+[[nodiscard]] inline bool takes_energy(const Stops& stops, Side side) {
+  const bool lower = side == Side::lower;
+  if (is_soft(stops, side)) return !((lower ? stops.damping_lower : stops.damping_upper) <= 0);
+  return !((lower ? stops.restitution_lower : stops.restitution_upper) >= 1);
+}
+
 /// That of the stop on a side.
 template <class Number, class Given = double>
 [[nodiscard]] Restitution<Number> restitution_at(const BasicStops<Given>& stops, Side side) {

@@ -34,7 +34,7 @@ class BasicPassageObserver {
   void arc(const A& arc, double begin, double length) {
     if (differentiates_) [[unlikely]]
       tangent_.arc(arc, begin, length);
-    if constexpr (motion::Housed<A>) see_hold(arc.loose);
+    if constexpr (motion::Housed<A>) see_hold(arc.loose), see_soft_wall(arc.loose, length);
     if constexpr (A::effects.stiffness)
       if (const auto& stop = arc.constants().stop; stop.side != Side::none) {
         if (passage_.itinerary == 0) passage_.itinerary = itinerary_in_contact(stop.side);
@@ -56,7 +56,7 @@ class BasicPassageObserver {
     else
       passage_.log_area += log_of_area(event);
     if (event.lasts() && event.held) passage_.rested_on = event.side;
-    if (event.kind == Kind::strike) {
+    if (event.kind == Kind::strike || event.is_of_soft_wall()) {
       passage_.meets_wall = true;
       see(event.main.place, event.main.before);
       passage_.loose_size = std::max({passage_.loose_size, std::abs(event.place), std::abs(event.before)});
@@ -108,11 +108,18 @@ class BasicPassageObserver {
       case Kind::press:
       case Kind::hold:
         return 17 + upper;
+      case Kind::wall_touch:
+        return 21 + upper;
+      case Kind::wall_renewal:
+        return 23 + upper;
+      case Kind::wall_separation:
+        return 25 + upper;
     }
     return 0;
   }
   static constexpr std::uint64_t in_contact = 11;  ///< with a soft stop, the lower one
   static constexpr std::uint64_t held_in_housing = 19, slides = 20;
+  static constexpr std::uint64_t in_soft_wall = 27;  ///< the lower one
 
   /// The logarithm of the factor by which an event at an instant changes areas; of a loose mass they are volumes of
   /// four numbers, of which a press takes two.
@@ -139,6 +146,17 @@ class BasicPassageObserver {
     if (slide_ && *slide_ != load)
       passage_.itinerary = with(passage_.itinerary, std::isinf(load) ? held_in_housing : slides);
     slide_ = load;
+  }
+  /// The contact with a soft wall of a period that begins in it, and what its damper takes of a volume.
+  template <class L>
+  void see_soft_wall(const L& loose, double length) {
+    if constexpr (requires { loose.coupling(); }) {
+      const auto& coupling = loose.coupling();
+      passage_.meets_wall = true;
+      if (!coupling.pushes) return;
+      if (passage_.itinerary == 0) passage_.itinerary = with(0, in_soft_wall + (coupling.wall.side == Side::upper));
+      passage_.log_area -= 2 * coupling.wall.damping * (1 + coupling.ratio) / coupling.ratio * length;
+    }
   }
   void see(double x, double v) { passage_.size = std::max({passage_.size, std::abs(x), std::abs(v)}); }
 

@@ -61,9 +61,11 @@ class WithMass {
   [[nodiscard]] bool has_soft_stops() const { return mass_.has_soft_stops(); }
   [[nodiscard]] bool is_rough() const { return mass_.is_rough(); }
   [[nodiscard]] auto phase(const State& state) const { return mass_.phase(state); }
-  [[nodiscard]] auto held(const State& state) const { return mass_.held(state); }
-  [[nodiscard]] auto holding_at(const State& state) const { return mass_.holding_at(state); }
-  [[nodiscard]] auto holding_stop(const State& state) const { return mass_.holding_stop(state); }
+  [[nodiscard]] auto held(const State& state) const { return mass_.held(state, push(state)); }
+  [[nodiscard]] auto holding_at(const State& state) const { return mass_.holding_at(state, push(state)); }
+  [[nodiscard]] auto holding_stop(const State& state) const { return mass_.holding_stop(state, push(state)); }
+  /// The force of a soft wall on the main mass, without which that is known.
+  [[nodiscard]] Number push(const State& state) const { return both_as_one ? Number(0) : walls_.push(state.loose); }
   [[nodiscard]] Number anchor(const State& state) const { return mass_.anchor(state); }
   [[nodiscard]] Number shortest_hop() const { return mass_.shortest_hop(); }
   template <class Of>

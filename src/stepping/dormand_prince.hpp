@@ -12,6 +12,7 @@
 
 #include "motion/polynomial_arc.hpp"
 #include "motion/polynomial_in_housing.hpp"
+#include "stepping/coupled_steps.hpp"
 #include "stepping/dense_events.hpp"
 #include "stepping/event_driven.hpp"
 #include "stepping/integration.hpp"
@@ -44,7 +45,8 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   explicit DormandPrince(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
       : Base(scene, scene.stops, limits, {{low_rebound(integration), low_rebound(integration)}}),
         tolerance_(integration.tolerance),
-        stepper_(boost::numeric::odeint::make_dense_output(tolerance_ * size_of(scene), tolerance_, Pair())) {}
+        size_(size_of(scene)),
+        stepper_(boost::numeric::odeint::make_dense_output(tolerance_ * size_, tolerance_, Pair())) {}
 
   /// The next step's arc and its first contact; without a contact it ends with the step, or at the horizon.
   template <Effects Of>
@@ -127,6 +129,18 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     if (sign * (pressing.load - start.a) <= 0 && sign * main.constants().jerk(start) > 0)
       return {0, Side::none, 0.0, start};
     return end_of_press(main, pressing, horizon);
+  }
+  /// A step of both masses beside a soft wall.
+  template <Effects Of>
+  [[nodiscard]] motion::CoupledInHousing<double> couple(const motion::ArcConstants<double, Of>& constants,
+                                                        const motion::Coupling<double>& coupling,
+                                                        const motion::Motion<double>& start, double anchor,
+                                                        const motion::RelativeStart<double>& from, double load,
+                                                        double horizon) {
+    reached_ = nowhere;
+    const CoupledSteps steps(tolerance_, size_);
+    return steps.step(constants, coupling, start, anchor, from, load, horizon,
+                      [this](double count) { this->count_evaluations(count); });
   }
   [[nodiscard]] motion::PolynomialArc<HeldConstants<double>::effects> held_arc(const HeldConstants<double>& constants,
                                                                                const motion::State<double>& state,
@@ -266,7 +280,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     if (!is_event && crossing.elapsed < horizon) reached_ = {crossing.motion.x, crossing.motion.v, turns};
   }
 
-  double tolerance_;
+  double tolerance_, size_;  ///< relative, and the length that the absolute one counts by
   Stepper stepper_;
   double anchor_ = 0.0, angle_ = 0.0;  ///< of the present flight: its anchor, and the forcing phase at its beginning
   Values here_{};                      ///< the beginning of its next step

@@ -123,6 +123,8 @@ class EventDriven : public IntegratorBase<N, E> {
     State& state = stage.state;
     motion::LooseState<Number>& loose = state.loose;
     Side towards = Side::none;
+    const bool has_soft_walls = housing_.walls.is_soft(Side::lower) || housing_.walls.is_soft(Side::upper);
+    if (has_soft_walls) modes::find_soft_wall(housing_.walls, state);
     if (!loose.pressed && housing_.walls.is_rough()) {
       towards = modes::slides_to(*this, state);
       if (towards == Side::none) beside(opposite(loose.wall), [&](auto& alone) { laws::stop(alone, stage); });
@@ -131,8 +133,18 @@ class EventDriven : public IntegratorBase<N, E> {
         if (modes::lies_pressed(alone, state)) laws::press(alone, stage, loose.wall, Number(0));
       });
     }
+    if (has_soft_walls) enter_soft_wall(state, towards);
     if (loose.pressed) return run_carrying(stage);
     return beside(towards, [&](auto& alone) { return modes::run_first(alone, stage); });
+  }
+
+  /// Lets a loose mass that lies on a soft wall into it, if it is driven there.
+  void enter_soft_wall(State& state, Side towards) {
+    motion::LooseState<Number>& loose = state.loose;
+    const bool lies = loose.place == 0 && loose.speed == 0 && !loose.pressed && !loose.within;
+    if (!lies || !housing_.walls.is_soft(loose.wall)) return;
+    const auto is_driven = [&](auto& alone) { return modes::into_wall(alone, loose.wall, state) > 0; };
+    loose.within = loose.pushed = towards == Side::none ? beside(towards, is_driven) : towards == loose.wall;
   }
 
   [[nodiscard]] static Number low_beside(const BasicScene<Number>& scene, Side side,

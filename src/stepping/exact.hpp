@@ -1,6 +1,7 @@
 #pragma once
 
 #include "motion/arc.hpp"
+#include "motion/coupled_arc.hpp"
 #include "motion/pull_rule.hpp"
 #include "motion/slide_rule.hpp"
 #include "stepping/event_driven.hpp"
@@ -101,6 +102,16 @@ class Exact : public EventDriven<Exact<N, E, Search>, N, E> {
     const motion::Crossing<Number> end = end_of_press(main, pressing.wall, pressing.load, horizon);
     this->count_evaluations(end.evaluations);
     return end;
+  }
+  /// A step of both masses beside a soft wall.
+  template <Effects Of>
+  [[nodiscard]] motion::CoupledInHousing<Number> couple(const motion::ArcConstants<Number, Of>& constants,
+                                                        const motion::Coupling<Number>& coupling,
+                                                        const motion::Motion<Number>& start, const Number& anchor,
+                                                        const motion::RelativeStart<Number>& from, const Number& load,
+                                                        const Number& horizon) {
+    this->count_evaluations(1);
+    return coupled(constants, coupling, start, anchor, from, load, horizon);
   }
   [[nodiscard]] static motion::Arc<Number, HeldConstants<Number>::effects> held_arc(
       const HeldConstants<Number>& constants, const motion::State<Number>&, const motion::Motion<Number>& start,

@@ -34,7 +34,8 @@ void complete_chatter(const Loop& loop, motion::State<Number>& state, const Numb
 template <class Loop, class Number>
 [[nodiscard]] bool fades(const Loop& loop, const motion::State<Number>& state, const motion::Stop<Number>& stop) {
   using std::abs;
-  const Number force = contact_force(loop.constants(), stop, loop.phase(state)).force, rebound = abs(state.v);
+  const Number force = contact_force(loop.constants(), stop, loop.phase(state)).force + stop.into(loop.push(state)),
+               rebound = abs(state.v);
   const bool is_struck = state.loose.wall != Side::none && state.loose.place == 0;
   if (!(force > 0) && !is_struck && !loop.walls().is_rough()) return false;
   if (2 * rebound <= force * epsilon<Number>() * loop.period()) return true;
@@ -61,6 +62,7 @@ template <class Loop, class Stage>
       state.v = 0;
     }
     keep_on(state, before);
+    if (state.loose.within && !push_wall_anew(loop, stage)) return Outcome::event_budget;
   } else if constexpr (Loop::effects.rest) {
     if (const auto left = state.v != 0 ? loop.chatter_time(state, stop) : std::nullopt) {
       state.chatters = true;

@@ -37,19 +37,23 @@ class MainMass {
   [[nodiscard]] const Number& period() const { return constants_.period; }
   [[nodiscard]] const Number& start_turns() const { return start_turns_; }  ///< forcing phase at tau = 0
 
-  /// The stop that holds a mass at rest, if one does.
-  [[nodiscard]] std::optional<motion::Stop<Number>> holding_stop(const motion::State<Number>& state) const {
+  /// The stop that holds a mass at rest, if one does; `push` is the force of a soft wall on it.
+  [[nodiscard]] std::optional<motion::Stop<Number>> holding_stop(const motion::State<Number>& state,
+                                                                 const Number& push = Number(0)) const {
     if (!E.rest || state.v != 0 || state.released) return std::nullopt;
     if constexpr (E.friction)
       if (is_rough()) {
-        const auto holding = held(state);
+        const auto holding = held(state, push);
         if (!holding || holding->stop == Side::none) return std::nullopt;
         return motion::stop_at<Number>(stops_, holding->stop);
       }
     for (const Side side : {Side::lower, Side::upper}) {
       if (E.soft && is_soft(stops_, side)) continue;
       const auto stop = motion::stop_at<Number>(stops_, side);
-      if (state.x == stop.position && holds(constants_, stop, phase(state))) return stop;
+      if (state.x != stop.position) continue;
+      if (push != 0 ? stop.into(push) + contact_force(constants_, stop, phase(state)).force > 0
+                    : holds(constants_, stop, phase(state)))
+        return stop;
     }
     return std::nullopt;
   }
@@ -68,10 +72,10 @@ class MainMass {
   /// The static level of the friction.
   [[nodiscard]] Number static_level() const requires(E.friction) { return slips_.static_level; }
   /// The friction, and the stop if there is one, that holds a mass at x' = 0; nothing: it moves on.
-  [[nodiscard]] std::optional<motion::Holding<Number>> held(const motion::State<Number>& state) const
-      requires(E.friction) {
+  [[nodiscard]] std::optional<motion::Holding<Number>> held(const motion::State<Number>& state,
+                                                            const Number& push = Number(0)) const requires(E.friction) {
     if (state.v != 0 || state.released) return std::nullopt;
-    const motion::Holding<Number> holding = holding_at(state);
+    const motion::Holding<Number> holding = holding_at(state, push);
     return holding.holds(constants_, phase(state)) ? std::optional(holding) : std::nullopt;
   }
   /// Whether friction holds a mass for good, away from rigid stops.
@@ -97,8 +101,9 @@ class MainMass {
   }
 
   /// What may hold a mass at x' = 0: the constant forces there, those of a soft stop included, and the static level.
-  [[nodiscard]] motion::Holding<Number> holding_at(const motion::State<Number>& state) const requires(E.friction) {
-    motion::Holding<Number> holding{Side::none, constants_.constant_force(state.x), slips_.static_level};
+  [[nodiscard]] motion::Holding<Number> holding_at(const motion::State<Number>& state,
+                                                   const Number& push = Number(0)) const requires(E.friction) {
+    motion::Holding<Number> holding{Side::none, constants_.constant_force(state.x) + push, slips_.static_level};
     for (const Side side : {Side::lower, Side::upper}) {
       const auto stop = motion::stop_at<Number>(stops_, side);
       const bool just_off = state.from_stop == side && state.offset != 0;  // by less than x can tell

@@ -87,7 +87,7 @@ class Moreau : public StepVelocities<E> {
     if constexpr (E.loose) {
       const motion::LooseState<double> loose = state.loose;
       const auto& rule = walls().rule;
-      if (loose.wall != Side::none && loose.place == 0 && sign_of(loose.wall) * loose.speed > 0)
+      if (walls().lies_on_wall(loose) && sign_of(loose.wall) * loose.speed > 0)
         return strike(stage, loose.wall, loose.speed, rule.law(loose.wall).after(loose.speed),
                       rule.main_after(state.v, loose.speed));
     }
@@ -208,7 +208,10 @@ class Moreau : public StepVelocities<E> {
       const motion::PolynomialInHousing in_housing(main, from.origin, beside.load,
                                                    cubic(length, {from.offset, from.w}, {offset, beside.w}),
                                                    this->ramp(length, from.w, beside.w));
-      stage.show(motion::HousedArc{main, in_housing}, length);
+      if (state.loose.pushed)
+        Base::show_at_wall(*this, stage, in_housing, length);
+      else
+        stage.show(motion::HousedArc{main, in_housing}, length);
       state.x = x, state.v = v;
       if (state.loose.wall != Side::none || beside.load != 0 || state.loose.speed != 0)
         Base::move_loose(state, offset, beside.w);
@@ -222,6 +225,8 @@ class Moreau : public StepVelocities<E> {
     State& state = stage.state;
     motion::LooseState<double>& loose = state.loose;
     const motion::RelativeStart<double> from = modes::loose_start_of(*this, state);
+    if (!loose.pressed && !this->meet_soft_wall(*this, stage, from, (turns - state.phase_turns) * this->period()))
+      return false;
     return housing_.carrying.with_mass([&](const auto& both) {
       Side towards = from.w < 0 ? Side::lower : Side::upper;
       if (loose.pressed || (walls().is_rough() && from.w == 0)) {
@@ -247,8 +252,11 @@ class Moreau : public StepVelocities<E> {
   [[nodiscard]] bool fly(const Both& both, const Mass& mass, Stage& stage, double turns,
                          const motion::RelativeStart<double>& from, Side towards, double load) {
     State& state = stage.state;
-    const Step step = this->step_of(mass, state, turns);
-    const double w = from.w + (load * step.length - (step.v - state.v));
+    const auto pushed = [&](bool is_held) { return this->impulse_of_wall(mass, state, turns, walls(), load, is_held); };
+    double push = pushed(false);
+    Step step = this->step_of(mass, state, turns, push);
+    if (push != 0 && step.holds(state.v)) push = pushed(true), step = this->step_of(mass, state, turns, push);
+    const double w = from.w + (load * step.length - push / walls().rule.ratio - (step.v - state.v));
     const Side wall = step.hits(state.v) ? Side::none : Base::active_wall(walls(), from, step.length);
     if (wall != Side::none && sign_of(wall) * w > sign_of(wall) * walls().rule.law(wall).after(from.w)) {
       if (from.w != 0) return meet_wall(both, mass, stage, turns, step, {wall, from.w, w, load});
@@ -274,8 +282,10 @@ class Moreau : public StepVelocities<E> {
       return affordable;
     }
     return beside(opposite(towards), [&](const auto& turned, double driven) {
-      const Step back = this->step_of(turned, state, turns);
-      return perform(turned, stage, back, {w + (driven * back.length - (back.v - state.v)), driven});
+      const double push = this->impulse_of_wall(turned, state, turns, walls(), driven, false);
+      const Step back = this->step_of(turned, state, turns, push);
+      const double drawn = driven * back.length - push / walls().rule.ratio;
+      return perform(turned, stage, back, {w + (drawn - (back.v - state.v)), driven});
     });
   }
 
@@ -322,25 +332,14 @@ class Moreau : public StepVelocities<E> {
     State& state = stage.state;
     const double v_before = std::exchange(state.v, v_after);
     state.loose = {side, 0.0, after + 0.0};  // no negative zero
-    stage.show({.kind = Kind::strike,
-                .side = side,
-                .time = stage.time(),
-                .before = before,
-                .after = state.loose.speed,
-                .place = walls().place(side),
-                .turns = state.phase_turns,
-                .main = laws::main_at(state, v_before)});
+    laws::tell(*this, stage, Kind::strike, side, before, state.loose.speed, v_before);
     return this->count_impact();
   }
   template <class Stage>
   void press(Stage& stage, Side side) const {
     State& state = stage.state;
     state.loose = {side, 0.0, 0.0, true};
-    stage.show({.kind = Kind::press,
-                .side = side,
-                .time = stage.time(),
-                .place = walls().place(side),
-                .main = laws::main_at(state, state.v)});
+    laws::tell(*this, stage, Kind::press, side, 0.0, 0.0, state.v);
   }
 
   [[no_unique_address]] std::conditional_t<E.loose, Housing<double, E>, NoHousing> housing_;

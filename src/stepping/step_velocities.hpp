@@ -4,8 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "motion/coupled_arc.hpp"
+#include "motion/housed_arc.hpp"
+#include "motion/polynomial_in_housing.hpp"
 #include "motion/relative_arc.hpp"
 #include "motion/walls.hpp"
+#include "stepping/laws.hpp"
 #include "stepping/theta_steps.hpp"
 
 namespace clatter::stepping {
@@ -122,7 +126,75 @@ class StepVelocities : public ThetaSteps<E> {
   /// The wall that the loose mass is beyond in the middle of a step, at its present z'.
   [[nodiscard]] static Side active_wall(const Walls& walls, const motion::RelativeStart<double>& loose, double length) {
     const double z = loose.origin + (loose.offset + length / 2 * loose.w);
-    return z <= walls.places.lower ? Side::lower : z >= walls.places.upper ? Side::upper : Side::none;
+    const Side side = z <= walls.places.lower ? Side::lower : z >= walls.places.upper ? Side::upper : Side::none;
+    return walls.is_soft(side) ? Side::none : side;
+  }
+  /// Finds whether a soft wall acts in the next step, and reports a contact that begins or ends; false if it is one too
+  /// many.
+  template <class Loop, class Stage>
+  [[nodiscard]] bool meet_soft_wall(const Loop& loop, Stage& stage, const motion::RelativeStart<double>& from,
+                                    double length) {
+    State& state = stage.state;
+    motion::LooseState<double>& loose = state.loose;
+    const Walls& walls = loop.walls();
+    const bool was_within = loose.within, was_pushed = loose.pushed;
+    const Side was_at = loose.wall;
+    Side within = Side::none;
+    for (const Side side : {Side::lower, Side::upper})
+      if (walls.is_soft(side) &&
+          sign_of(side) * (from.origin + from.offset + length / 2 * from.w - walls.place(side)) > 0)
+        within = side;
+    loose.within = loose.pushed = within != Side::none;
+    if (within != Side::none) {
+      loose = {.wall = within,
+               .place = from.origin - walls.place(within) + from.offset,
+               .speed = from.w,
+               .within = true,
+               .pushed = true};
+      const auto& wall = walls.soft[index_of(within)];
+      loose.pushed = wall.force(wall.into(loose.place + length / 2 * loose.speed), wall.into(loose.speed)) > 0;
+    }
+    const bool goes_on = was_pushed && loose.pushed && was_at == loose.wall;
+    if (was_pushed && !goes_on) laws::tell_of_soft_wall(loop, stage, Kind::wall_separation);
+    if (!loose.pushed || goes_on) return true;
+    laws::tell_of_soft_wall(loop, stage, was_within && was_at == loose.wall ? Kind::wall_renewal : Kind::wall_touch);
+    return this->count_impact();
+  }
+  /// Shows a part of a step in which a soft wall pushes.
+  template <class Loop, class Stage, Effects Of>
+  static void show_at_wall(const Loop& loop, const Stage& stage, const motion::PolynomialInHousing<Of>& beside,
+                           double length) {
+    const auto& main = beside.main();
+    const auto course = [](const auto& arc) {
+      motion::Course<double> of;
+      const auto way = to_powers(arc.offset()), velocity = to_powers(arc.velocity());
+      for (std::size_t k = 0; k < way.size(); ++k) of.way[k] = k == 0 ? 0.0 : way[k], of.velocity[k] = velocity[k];
+      return of;
+    };
+    const motion::Coupling<double> coupling{loop.walls().soft[index_of(stage.state.loose.wall)],
+                                            loop.walls().rule.ratio, true};
+    const motion::CoupledArc<double> coupled(motion::as_any(main.constants()), main.start(), main.anchor(),
+                                             main.length(), course(main));
+    const motion::RelativeStart<double> from = modes::loose_start_of(loop, stage.state);
+    const motion::CoupledInHousing<double> in_wall(coupled, coupling, from, beside.load(), course(beside));
+    stage.show(motion::HousedArc{coupled, in_wall}, length);
+  }
+  /// The impulse of the soft wall that pushes over a step, along x: its force at the end is implicit, as is that of the
+  /// spring. A main mass that is held doesn't give way.
+  template <class Mass>
+  [[nodiscard]] double impulse_of_wall(const Mass& mass, const State& state, double turns, const Walls& walls,
+                                       double load, bool is_held) {
+    const motion::LooseState<double>& loose = state.loose;
+    if (!loose.pushed) return 0.0;
+    return with_oscillator(mass, state, [&](const auto& constants) {
+      const auto end = this->step_end(constants, state, turns);
+      const auto& wall = walls.soft[index_of(loose.wall)];
+      const double part = this->theta_ * end.length, before = end.length - part, damper = 2 * wall.damping;
+      const double moved = is_held ? 0.0 : end.momentum / end.mass - state.v, gives = is_held ? 0.0 : 1 / end.mass;
+      const double w = loose.speed + (load * end.length - moved), place = loose.place + before * loose.speed;
+      const double free = before * walls.push(loose) + part * (wall.stiffness * (place + part * w) + damper * w);
+      return free / (1 + part * (wall.stiffness * part + damper) * (1 / walls.rule.ratio + gives));
+    });
   }
 
   /// What a step would do to a loose mass that ends it with the velocity of the main one.
@@ -133,8 +205,9 @@ class StepVelocities : public ThetaSteps<E> {
   };
   /// `w`: z' at the beginning of the step, `level` of the friction, as an acceleration.
   [[nodiscard]] static Hold hold_in(const Walls& walls, const State& state, const Step& both, double w, double level) {
-    const double needed = (both.v - state.v - w) - walls.load * both.length, most = level * both.length;
-    const bool on_wall = state.loose.place == 0 && state.loose.wall != Side::none && w == 0;
+    const double load = walls.load - walls.push(state.loose) / walls.rule.ratio;
+    const double needed = (both.v - state.v - w) - load * both.length, most = level * both.length;
+    const bool on_wall = walls.lies_on_wall(state.loose) && w == 0;
     const double away = on_wall ? sign_of(state.loose.wall) * needed : std::abs(needed);
     return {needed, away < most || (away == most && walls.is_rough())};
   }

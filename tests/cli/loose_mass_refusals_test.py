@@ -38,6 +38,28 @@ class Refusals(CommandLine):
         self.assert_told(walls + asked, ("'loose_gap'", "name 'loose_lower' or 'loose_upper'"))
         self.assert_told(f'{SCENE}[observe]\nsensitivity = "loose_x0"\n', ("'loose_x0'", "a start"))
 
+    def test_soft_walls(self):
+        rigid = SCENE.replace("loose_R = 0.6\n", "")
+        soft = rigid + "loose_wall_stiffness = 30\n"
+        cases = {
+            SCENE + "loose_wall_stiffness = 30\n": ("loose_wall_stiffness", "loose_R"),
+            soft + "loose_wall_R = 0.5\nloose_wall_damping = 0.1\n": ("loose_wall_damping", "loose_wall_R"),
+            soft + "loose_wall_stiffness_upper = 9\n": ("loose_wall_stiffness_upper", "loose_wall_stiffness"),
+            rigid + "loose_wall_stiffness = 0\n": ("loose_wall_stiffness = 0",),
+            rigid + "loose_wall_R = 0.5\n": ("loose_wall_R", "loose_R"),
+            rigid + "loose_wall_stiffness_lower = 9\nloose_wall_R = 0.5\n": ("upper one is rigid",),
+            rigid.replace("loose_mass = 0.05\nloose_gap = 1.9\n", "xs = 1\nloose_wall_stiffness = 9\n"): (
+                "loose_mass",
+            ),
+            soft + '[observe]\nsensitivity = "f"\n': ("loose_wall_stiffness", "sensitivity"),
+        }
+        for text, keys in cases.items():
+            with self.subTest(text=text):
+                self.assert_told(text, keys)
+        self.assert_told(
+            soft + '[branch]\nalong = "nu"\nrange = [1, 2]\n', ("loose_wall_stiffness", "[branch]"), "branch"
+        )
+
     def test_what_the_main_mass_does_not_have_beside_it(self):
         for key, value in {"stop_amplitude": "0.1", "start_period": "3"}.items():
             with self.subTest(key=key):

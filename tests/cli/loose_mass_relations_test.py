@@ -16,6 +16,7 @@ LENGTHS = ("x0", "loose_x0", "loose_gap", "loose_lower", "loose_upper", "base_am
 SPEEDS = ("v0", "loose_v0")
 ACCELERATIONS = ("f", "load", "loose_load")
 LEVELS = ("loose_friction", "loose_friction_static")  # forces that a mirror leaves
+STIFFNESSES = ("loose_wall_stiffness_lower", "loose_wall_stiffness_upper")
 
 
 def drawn(seed):
@@ -31,14 +32,14 @@ def drawn(seed):
 def scaled(scene, length=1.0, rate=1.0):
     """The same motion in other units."""
     powers = {key: (1, 0) for key in LENGTHS} | {key: (1, 1) for key in SPEEDS} | {"h": (0, 1), "nu": (0, 1)}
-    powers |= {key: (1, 2) for key in ACCELERATIONS + LEVELS} | {"stiffness": (0, 2)}
+    powers |= {key: (1, 2) for key in ACCELERATIONS + LEVELS} | {key: (0, 2) for key in ("stiffness", *STIFFNESSES)}
     factors = {key: length**p * rate**q for key, (p, q) in powers.items()}
     return {key: value * factors.get(key, 1) for key, value in scene.items()}
 
 
 def mirrored(scene):
     swapped = {
-        key: scene[key.replace("lower", "UPPER").replace("upper", "lower").replace("UPPER", "upper")] for key in scene
+        key.replace("lower", "UPPER").replace("upper", "lower").replace("UPPER", "upper"): scene[key] for key in scene
     }
     return {key: -value if key in ACCELERATIONS + SPEEDS + LENGTHS else value for key, value in swapped.items()}
 
@@ -95,11 +96,11 @@ class Relations(LooseMass):
     def test_a_machine_is_its_scene_in_SI(self, scene):
         mass = 0.35
         si = scaled(scene, 2e-3, 90.0)
-        walls = ("loose_R_lower", "loose_R_upper", "loose_load")
+        walls = ("loose_R_lower", "loose_R_upper", "loose_wall_damping_lower", "loose_wall_damping_upper", "loose_load")
         machine = {key: si[key] for key in (*LENGTHS, *SPEEDS, *walls, "phase") if key in si}
         machine |= {"mass": mass, "stiffness": si["stiffness"] * mass, "damping": 2 * si["h"] * mass}
         machine |= {"force": si["f"] * mass, "load": si["load"] * mass, "frequency": si["nu"] / (2 * math.pi)}
-        machine |= {key: si[key] * mass for key in LEVELS if key in si}
+        machine |= {key: si[key] * mass for key in LEVELS + STIFFNESSES if key in si}
         machine |= {"loose_mass": f"{1e3 * mass * si['loose_mass']!r} g"}
         one = self.transient(scene, energy=True)
         other = self.transient(machine, 30.0 / 90.0, kind="machine", energy=True)

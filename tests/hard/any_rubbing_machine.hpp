@@ -28,4 +28,20 @@ inline void draw_loose_friction(support::Random& random, LooseMass& loose) {
   return any;
 }
 
+/// Lets one wall be soft, or both.
+inline void draw_soft_walls(support::Random& random, LooseMass& loose) {
+  const bool both = random.happens(0.6), upper = random.happens(0.5);
+  if (both || !upper) loose.stiffness_lower = random.logarithmic(0.3, 3000);
+  if (both || upper) loose.stiffness_upper = random.logarithmic(0.3, 3000);
+  if (random.happens(0.7)) loose.damping_lower = random.happens(0.2) ? 1 : random.uniform(0, 2);
+  if (random.happens(0.7)) loose.damping_upper = random.uniform(0, 0.6);
+}
+/// A machine whose loose mass meets soft walls, and half of the time rubs on its housing.
+[[nodiscard]] inline AnyScene any_soft_walled_machine(std::uint64_t index) {
+  support::Random random(20713, index);
+  AnyScene any = random.happens(0.5) ? any_rubbing_machine(index) : any_machine(index);
+  draw_soft_walls(random, any.scene.loose);
+  return any;
+}
+
 }  // namespace clatter::hard

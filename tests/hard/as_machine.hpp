@@ -32,6 +32,10 @@ namespace clatter::hard {
           .wall_upper = loose.upper,
           .wall_R_lower = loose.restitution_lower,
           .wall_R_upper = loose.restitution_upper,
+          .wall_kappa_lower = loose.stiffness_lower,
+          .wall_kappa_upper = loose.stiffness_upper,
+          .wall_zeta_lower = loose.damping_lower,
+          .wall_zeta_upper = loose.damping_upper,
           .loose_load = loose.load,
           .loose_friction = loose.friction,
           .loose_static = loose.friction_static,
@@ -49,9 +53,29 @@ namespace clatter::hard {
   const MachineScene given = as_machine(any.scene);
   MachineScene s = given;
   const auto nudge = [&](double& value) { value *= 1 + random.sign() * roundings * epsilon<double>(); };
-  for (double* value : {&s.damping, &s.stiffness, &s.forcing, &s.frequency, &s.load, &s.lower, &s.upper, &s.kappa_lower,
-                        &s.kappa_upper, &s.zeta_lower, &s.zeta_upper, &s.loose_mass, &s.wall_lower, &s.wall_upper,
-                        &s.loose_load, &s.x, &s.v, &s.z, &s.w})
+  for (double* value : {&s.damping,
+                        &s.stiffness,
+                        &s.forcing,
+                        &s.frequency,
+                        &s.load,
+                        &s.lower,
+                        &s.upper,
+                        &s.kappa_lower,
+                        &s.kappa_upper,
+                        &s.zeta_lower,
+                        &s.zeta_upper,
+                        &s.wall_kappa_lower,
+                        &s.wall_kappa_upper,
+                        &s.wall_zeta_lower,
+                        &s.wall_zeta_upper,
+                        &s.loose_mass,
+                        &s.wall_lower,
+                        &s.wall_upper,
+                        &s.loose_load,
+                        &s.x,
+                        &s.v,
+                        &s.z,
+                        &s.w})
     nudge(*value);
   for (double* R : {&s.restitution_lower, &s.restitution_upper, &s.wall_R_lower, &s.wall_R_upper})
     nudge(*R), *R = std::min(1.0, *R);

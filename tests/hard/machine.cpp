@@ -160,6 +160,7 @@ class Machine {
       ++run_.impacts, is_fresh_ = true;
     }
     if (m_.around != 0 && m_.v == 0 && m_.q != 0) m_.has_force = true;
+    if (m_.wall_around != 0 && m_.w == 0 && m_.r != 0) m_.wall_pushes = true;
   }
   /// Ends the endless row of contacts of both masses beside a stop: each pair alone would pass the momentum on.
   void come_to_rest() {
@@ -180,8 +181,7 @@ class Machine {
   /// The side to which the loose mass moves in its housing, if it rubs.
   [[nodiscard]] int slide() const { return !m_.rubs() || m_.w == 0 ? 0 : m_.w > 0 ? 1 : -1; }
   void strike_stop(int side) {
-    const Quad before = m_.v;
-    m_.v *= -m_.stop(side).restitution;
+    const Quad before = std::exchange(m_.v, -m_.stop(side).restitution * m_.v);
     if (is_slow(size_of(m_.v), side * m_.acceleration(-side, slide()))) m_.v = 0;
     if (m_.has_loose) m_.w += before - m_.v;
     run_.struck += to_long((before * before - m_.v * m_.v) / 2);
@@ -280,6 +280,19 @@ class Machine {
         return meet(guard.side);
       case Guard::Of::wall:
         m_.wall_anchor = m_.wall(guard.side).place, m_.r = 0;
+        if (!m_.wall(guard.side).is_soft) return;
+        m_.wall_around = guard.side, m_.wall_pushes = true;
+        ++run_.impacts;
+        return tell(Kind::wall_touch, guard.side, m_.w, m_.w, m_.v);
+      case Guard::Of::wall_force_gone:
+        m_.wall_pushes = false;
+        if (m_.wall(m_.wall_around).damper != 0) return;
+        [[fallthrough]];
+      case Guard::Of::wall_left:
+        m_.r = 0, m_.wall_around = 0, m_.wall_pushes = false;
+        return;
+      case Guard::Of::wall_force_back:
+        m_.wall_pushes = true;
         return;
       case Guard::Of::still:
         m_.v = 0, is_fresh_ = is_turning_ = true;
@@ -323,7 +336,7 @@ class Machine {
   int held_on_ = 0;
   bool is_fresh_ = false;    ///< something has just come to rest
   bool is_turning_ = false;  ///< the velocity of the main mass has just fallen to 0
-  std::array<Watch, 18> watches_{};
+  std::array<Watch, 24> watches_{};
   MachineRun run_{};
 };
 

@@ -13,7 +13,8 @@ inline constexpr double no_stop = std::numeric_limits<double>::infinity();
 ///   x'' + 2h x' + k x + mu sgn x' = f sin(nu tau + phase) + load + soft stops + F sgn z',
 ///   y'' = loose_load - F sgn z'/eps, z = y - x.
 /// At z' = 0 friction on the housing holds both together up to a static level.
-/// A soft stop pushes with max(0, kappa depth + 2 zeta sqrt(kappa) depth'); one of infinite kappa is rigid.
+/// A soft stop pushes with max(0, kappa depth + 2 zeta sqrt(kappa) depth'), a soft wall both masses apart with max(0,
+/// kappa depth + 2 zeta sqrt(kappa eps/(1 + eps)) depth'); one of infinite kappa is rigid.
 struct MachineScene {
   double damping = 0, stiffness = 1, forcing = 0, frequency = 1, phase = 0, load = 0;
   double friction = 0, static_friction = 0;  ///< levels; the static one is no less than the other
@@ -24,6 +25,8 @@ struct MachineScene {
   double loose_mass = 0;  ///< eps; 0: none
   double wall_lower = -no_stop, wall_upper = no_stop;
   double wall_R_lower = 1, wall_R_upper = 1;
+  double wall_kappa_lower = no_stop, wall_kappa_upper = no_stop;
+  double wall_zeta_lower = 0, wall_zeta_upper = 0;
   double loose_load = 0;
   double loose_friction = 0, loose_static = 0;  ///< F and its static level, no less; 0: none
   double x = 0, v = 0;                          ///< of the main mass at the start
@@ -52,6 +55,7 @@ struct MachineEvent {
     touch,       ///< of a soft stop at its place
     separation,  ///< the force of a soft stop falls to 0
     renewal,     ///< it rises again, beyond the stop's place
+    wall_touch,  ///< of a soft wall by the loose mass
     leave,       ///< the main mass comes back over the place of a soft stop that has no force
   };
   Kind kind;

@@ -17,19 +17,32 @@ struct Contact {
   bool exists, is_soft;
   Quad place, restitution, kappa, damper;
 };
-[[nodiscard]] inline Contact contact(double place, double restitution, double kappa, double zeta) {
+[[nodiscard]] inline Contact contact(double place, double restitution, double kappa, double zeta, Quad mass = 1) {
   const bool is_soft = std::isfinite(kappa);
   return {std::isfinite(place),
           is_soft,
           place,
           restitution,
           is_soft ? kappa : 0,
-          is_soft ? 2 * Quad(zeta) * sqrtq(kappa) : 0};
+          is_soft ? 2 * Quad(zeta) * sqrtq(kappa * mass) : 0};
 }
 
 /// A quantity that ends a mode when it falls to 0.
 struct Guard {
-  enum class Of : std::uint8_t { stop, wall, still, hold, force_gone, force_back, left, press, loose_still };
+  enum class Of : std::uint8_t {
+    stop,
+    wall,
+    still,
+    hold,
+    force_gone,
+    force_back,
+    left,
+    press,
+    loose_still,
+    wall_force_gone,
+    wall_force_back,
+    wall_left
+  };
   Of of;
   int side;
   Series p;
@@ -70,8 +83,9 @@ struct Motion {
     loose_mus = std::max(scene.loose_static, scene.loose_friction);
     stops = {contact(scene.lower, scene.restitution_lower, scene.kappa_lower, scene.zeta_lower),
              contact(scene.upper, scene.restitution_upper, scene.kappa_upper, scene.zeta_upper)};
-    walls = {contact(scene.wall_lower, scene.wall_R_lower, no_stop, 0),
-             contact(scene.wall_upper, scene.wall_R_upper, no_stop, 0)};
+    const Quad reduced = Quad(scene.loose_mass) / (1 + Quad(scene.loose_mass));
+    walls = {contact(scene.wall_lower, scene.wall_R_lower, scene.wall_kappa_lower, scene.wall_zeta_lower, reduced),
+             contact(scene.wall_upper, scene.wall_R_upper, scene.wall_kappa_upper, scene.wall_zeta_upper, reduced)};
     has_loose = scene.loose_mass > 0 && (walls[0].exists || walls[1].exists);
     if (!has_loose) walls[0].exists = walls[1].exists = false;
     for (const int side : {-1, 1})
@@ -86,8 +100,17 @@ struct Motion {
     return stop(side).exists && !stop(side).is_soft && q == 0 && anchor == stop(side).place;
   }
   [[nodiscard]] bool is_on_wall(int side) const {
-    return wall(side).exists && r == 0 && wall_anchor == wall(side).place;
+    return wall(side).exists && !wall(side).is_soft && r == 0 && wall_anchor == wall(side).place;
   }
+  /// The force of the soft wall that pushes, along x on the main mass, by the place and the speed beyond that of it.
+  [[nodiscard]] Quad wall_push(Quad place, Quad speed) const {
+    return wall_pushes ? wall(wall_around).kappa * place + wall(wall_around).damper * speed : Quad(0);
+  }
+  /// The term n of that force over a step.
+  [[nodiscard]] Quad wall_push(const Series& way, std::size_t n, Quad step) const {
+    return n + 1 < terms ? wall_push(way[n], number(n + 1) * way[n + 1] / step) : Quad(0);
+  }
+  [[nodiscard]] bool is_coupled(const Mode& mode) const { return wall_pushes && !mode.takes_along(); }
   [[nodiscard]] Quad x() const { return anchor + q; }
   [[nodiscard]] Quad z() const { return wall_anchor + r; }
   [[nodiscard]] Quad kappa() const { return has_force ? stop(around).kappa : 0; }
@@ -126,12 +149,16 @@ struct Motion {
     const Quad own = size_of(scene.loose_load) + (rubs() ? loose_mus / Quad(scene.loose_mass) : Quad(0));
     const Quad loose = has_loose ? (1 + Quad(scene.loose_mass)) * own : 0;
     const Quad elastic = size_of(scene.stiffness * anchor) + size_of(stiffness() * q);
-    return size_of(scene.forcing) + size_of(scene.load) + elastic + size_of(twice_damping() * v) + mus + loose;
+    const Quad pushed =
+        wall_around == 0 ? Quad(0) : wall(wall_around).kappa * size_of(r) + wall(wall_around).damper * size_of(w);
+    return size_of(scene.forcing) + size_of(scene.load) + elastic + size_of(twice_damping() * v) + mus + loose +
+           (wall_around == 0 ? Quad(0) : pushed * (1 + 1 / Quad(scene.loose_mass)));
   }
   /// Of the main mass, alone.
   [[nodiscard]] Quad acceleration(int slip, int slide) const {
     const Quad forced = scene.forcing * sinq(Quad(scene.frequency) * time + scene.phase);
-    return forced + constant_push({false, slip, 0, false, slide}) - stiffness() * q - twice_damping() * v;
+    return forced + constant_push({false, slip, 0, false, slide}) - stiffness() * q - twice_damping() * v +
+           wall_push(r, w);
   }
 
   // The motion in a mode.
@@ -139,23 +166,34 @@ struct Motion {
   [[nodiscard]] Quad step_of(const Mode& mode) const {
     const Quad forced = scene.forcing != 0 ? scene.frequency : 0;
     const Quad own = mode.held ? Quad(0) : sqrtq(size_of(stiffness())) + twice_damping();
-    return Quad(scene.step) / std::max({forced, own, Quad(1e-3)});
+    const Quad reduced = Quad(scene.loose_mass) / (1 + Quad(scene.loose_mass));
+    const Quad coupled =
+        is_coupled(mode) ? sqrtq(wall(wall_around).kappa / reduced) + wall(wall_around).damper / reduced : Quad(0);
+    return Quad(scene.step) / std::max({forced, own + coupled, Quad(1e-3)});
   }
   [[nodiscard]] Series main_series(const Mode& mode, Quad step) const {
-    Series x{q, v * step};
+    Series x{q, v * step}, way{r, w * step};
     if (mode.held) return x;
     const Series force = push(mode, step);
     const Quad mass = mode.takes_along() ? 1 + Quad(scene.loose_mass) : 1;
     const Quad pulled = step * step / mass, damped = twice_damping() * step / mass, k = stiffness();
-    for (std::size_t n = 0; n + 2 < terms; ++n)
-      x[n + 2] = (pulled * (force[n] - k * x[n]) / number(n + 1) - damped * x[n + 1]) / number(n + 2);
+    for (std::size_t n = 0; n + 2 < terms; ++n) {
+      const Quad pushed = is_coupled(mode) ? wall_push(way, n, step) : Quad(0);
+      x[n + 2] = (pulled * (force[n] - k * x[n] + pushed) / number(n + 1) - damped * x[n + 1]) / number(n + 2);
+      if (is_coupled(mode)) way[n + 2] = loose_term(mode, x, way, n, step);
+    }
     return x;
+  }
+  /// The term n + 2 of the way of a loose mass, by those before and that of the main one.
+  [[nodiscard]] Quad loose_term(const Mode& mode, const Series& x, const Series& way, std::size_t n, Quad step) const {
+    const Quad pushed = is_coupled(mode) ? wall_push(way, n, step) / Quad(scene.loose_mass) : Quad(0);
+    const Quad own = (n == 0 ? loose_push(mode.slide) : Quad(0)) - pushed;
+    return own * step * step / number((n + 1) * (n + 2)) - x[n + 2];
   }
   [[nodiscard]] Series loose_series(const Mode& mode, const Series& x, Quad step) const {
     Series way{r, w * step};
     if (mode.takes_along() || !has_loose) return way;
-    for (std::size_t n = 2; n < terms; ++n) way[n] = -x[n];
-    way[2] += loose_push(mode.slide) * step * step / 2;
+    for (std::size_t n = 0; n + 2 < terms; ++n) way[n + 2] = loose_term(mode, x, way, n, step);
     return way;
   }
 
@@ -174,6 +212,10 @@ struct Motion {
   [[nodiscard]] Guard hold(int side, const Mode& mode, Quad step) const {
     Guard guard{Guard::Of::hold, side, push(mode, step), force_size(), 0};
     guard.p[0] -= stiffness() * q;
+    if (is_coupled(mode)) {
+      const Series way = loose_series(mode, Series{q}, step);
+      for (std::size_t n = 0; n + 1 < terms; ++n) guard.p[n] += wall_push(way, n, step);
+    }
     for (Quad& term : guard.p) term *= -side;
     guard.p[0] += mus;
     return guard;
@@ -191,12 +233,21 @@ struct Motion {
       guard.p[n] = sign * around * (kappa * x[n] + damper * number(n + 1) * x[n + 1] / step);
     return guard;
   }
+  /// The same of the soft wall.
+  [[nodiscard]] Guard wall_force(Guard::Of of, int sign, const Series& way, Quad step) const {
+    const auto& [exists, is_soft, place, R, kappa, damper] = wall(wall_around);
+    Guard guard{of, wall_around, {}, kappa * size_of(r) + damper * size_of(w), 0};
+    for (std::size_t n = 0; n + 1 < terms; ++n)
+      guard.p[n] = sign * wall_around * (kappa * way[n] + damper * number(n + 1) * way[n + 1] / step);
+    return guard;
+  }
   /// What is left until the loose mass leaves to the other side: of the force of a wall, of friction, or both.
   [[nodiscard]] Guard press(int side, const Series& x, Quad step) const {
     Guard guard{Guard::Of::press, side, {}, force_size(), 0};
     for (std::size_t n = 0; n + 2 < terms; ++n)
       guard.p[n] = -side * number((n + 1) * (n + 2)) * x[n + 2] / (step * step);
     guard.p[0] += side * Quad(scene.loose_load);
+    if (wall_pushes) guard.p[0] -= side * wall_push(r, 0) / Quad(scene.loose_mass);
     if (rubs()) guard.p[0] += loose_mus / Quad(scene.loose_mass);
     return guard;
   }
@@ -211,7 +262,7 @@ struct Motion {
       if (mode.held && !is_on_rigid(side)) rows.push_back(hold(side, mode, step));
       if (!mode.held && around == 0 && stop(side).exists)
         rows.push_back(gap(Of::stop, side, x, stop(side).place - anchor, step));
-      if (!mode.takes_along() && wall(side).exists) rows.push_back(wall_gap(side, way, step));
+      if (!mode.takes_along() && wall(side).exists && wall_around == 0) rows.push_back(wall_gap(side, way, step));
       if (!mode.held && is_taken_along(mode, side)) rows.push_back(press(side, x, step));
     }
     if (mode.slide != 0) rows.push_back(still(mode.slide, way, step, Of::loose_still));
@@ -220,6 +271,12 @@ struct Motion {
     if (!mode.held && around != 0 && !has_force) {
       rows.push_back(force(Of::force_back, -1, x, step));
       rows.push_back(gap(Of::left, -around, x, 0, step));
+    }
+    if (!mode.takes_along() && wall_around != 0 && wall_pushes)
+      rows.push_back(wall_force(Of::wall_force_gone, 1, way, step));
+    if (!mode.takes_along() && wall_around != 0 && !wall_pushes) {
+      rows.push_back(wall_force(Of::wall_force_back, -1, way, step));
+      rows.push_back(gap(Of::wall_left, -wall_around, way, 0, step));
     }
     for (Guard& guard : rows) guard = cleaned(guard);
     return rows;
@@ -235,6 +292,8 @@ struct Motion {
   Quad wall_anchor, r = 0, w;  ///< of the loose mass, as seen from the main one, likewise
   int around = 0;              ///< the soft stop beyond whose place the main mass is; then it is the anchor
   bool has_force = false;      ///< and that stop pushes
+  int wall_around = 0;         ///< the soft wall beyond whose place the loose mass is; then it is the wall anchor
+  bool wall_pushes = false;    ///< and that wall pushes
 };
 
 }  // namespace clatter::hard::machine

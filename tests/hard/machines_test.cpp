@@ -54,9 +54,10 @@ constexpr double slow = 1e-7;
   const MachineRun run = run_machine(scene, duration, most_contacts);
   Motion motion;
   for (const MachineEvent& e : run.events)
-    if (e.kind == Kind::stop_impact || e.kind == Kind::wall_impact || e.kind == Kind::touch)
-      motion.contacts.push_back({e.kind == Kind::wall_impact ? 2 * e.side : e.side, static_cast<double>(e.time),
-                                 static_cast<double>(e.before)});
+    if (e.kind == Kind::stop_impact || e.kind == Kind::wall_impact || e.kind == Kind::touch ||
+        e.kind == Kind::wall_touch)
+      motion.contacts.push_back({e.kind == Kind::wall_impact || e.kind == Kind::wall_touch ? 2 * e.side : e.side,
+                                 static_cast<double>(e.time), static_cast<double>(e.before)});
   motion.contacts = without_slow(std::move(motion.contacts));
   motion.end = {static_cast<double>(run.x), static_cast<double>(run.v), static_cast<double>(run.z),
                 static_cast<double>(run.w)};
@@ -229,6 +230,28 @@ TEST(Machines, that_rub_in_the_housing_are_told_as_taylor_series_tell_them) {
 
 TEST(Machines, that_only_rub_in_the_housing_are_told_as_taylor_series_tell_them) {
   expect_told_as_by_taylor_series({"rubbing alone", any_rubbing_scene, 40});
+}
+
+TEST(Machines, with_soft_walls_are_told_as_taylor_series_tell_them) {
+  expect_told_as_by_taylor_series({"soft walls", any_soft_walled_machine, 40});
+}
+
+TEST(Machines, with_soft_walls_keep_their_energy_but_for_work_and_losses) {
+  const Kind kind{"soft walls", any_soft_walled_machine, 100};
+  Tally residual("energy residual", kind);
+  in_every_scene(kind, [&](const AnyScene& any) {
+    point::Problem problem = any.scene;
+    problem.time.max_impacts = most_contacts;
+    problem.observe.energy = problem.observe.wall_energy = problem.observe.impacts = true;
+    point::ThreadScratch scratch;
+    const point::PointResult result = run_point(problem, scratch);
+    if (result.status != steady::Status::transient) return;
+    double size = 1e-3 + std::abs(result.work_in) + result.loss_damping + result.loss_friction;
+    for (const auto& stops : {result.impact_speed, result.wall_impact_speed})
+      for (const double speed : stops) size += std::isnan(speed) ? 0 : speed * speed;
+    residual.take(any, std::abs(result.energy_residual) / (1e-10 * size));
+  });
+  residual.conclude(0.9);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace clatter::stepping::modes_test {
 namespace {
 
-constexpr std::array<const char*, 4> searched_as{"gaps", "margins", "pull", "closed form"};
+constexpr std::array<const char*, 5> searched_as{"gaps", "margins", "pull", "series", "closed form"};
 
 /// The rows of some modes, as lines of the guide's table.
 template <class... Modes>
@@ -55,8 +55,9 @@ std::vector<std::string> called_for() {
 
 TEST(Modes, ReadAsTheTableOfTheGuide) {
   EXPECT_EQ(rows_of("mode"), (Table<Lines, Exact<double, Effects{}>>::all()));
-  EXPECT_EQ(rows_of("loose mass"), (std::vector{Lines<>::line(flying_row), Lines<>::line(sliding_row),
-                                                Lines<>::line(pressed_row), Lines<>::line(stuck_row)}));
+  EXPECT_EQ(rows_of("loose mass"),
+            (std::vector{Lines<>::line(flying_row), Lines<>::line(sliding_row), Lines<>::line(pressed_row),
+                         Lines<>::line(stuck_row), Lines<>::line(in_wall_row), Lines<>::line(beyond_wall_row)}));
 }
 
 TEST(Modes, AreThoseThatTheEffectsCallFor) {

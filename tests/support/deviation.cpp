@@ -120,21 +120,27 @@ std::string configuration_of(const point::Problem& s, double duration) {
       << "\nstiffness = " << s.oscillator.stiffness << "\nphase = " << s.start.phase
       << "\nx0 = " << s.start.displacement << "\nv0 = " << s.start.velocity << "\nstop_lower = " << s.stops.lower
       << "\nstop_upper = " << s.stops.upper;
-  for (const bool upper : {false, true}) {
-    const char* const which = upper ? "upper" : "lower";
-    const Stops& stops = s.stops;
-    if (is_soft(stops, upper ? Side::upper : Side::lower))
-      out << "\nstop_stiffness_" << which << " = " << (upper ? stops.stiffness_upper : stops.stiffness_lower)
-          << "\nstop_damping_" << which << " = " << (upper ? stops.damping_upper : stops.damping_lower);
-    else
-      out << "\nR_" << which << " = " << (upper ? stops.restitution_upper : stops.restitution_lower);
-  }
+  const auto tell = [&](const Stops& stops, const char* soft, const char* rigid) {
+    for (const bool upper : {false, true}) {
+      const char* const which = upper ? "upper" : "lower";
+      if (is_soft(stops, upper ? Side::upper : Side::lower))
+        out << '\n'
+            << soft << "_stiffness_" << which << " = " << (upper ? stops.stiffness_upper : stops.stiffness_lower)
+            << '\n'
+            << soft << "_damping_" << which << " = " << (upper ? stops.damping_upper : stops.damping_lower);
+      else
+        out << '\n' << rigid << '_' << which << " = " << (upper ? stops.restitution_upper : stops.restitution_lower);
+    }
+  };
+  tell(s.stops, "stop", "R");
   if (has_friction(s.friction))
     out << "\nfriction = " << s.friction.kinetic << "\nfriction_static = " << s.friction.static_level;
-  if (const LooseMass& loose = s.loose; has_loose_mass(loose))
+  if (const LooseMass& loose = s.loose; has_loose_mass(loose)) {
+    tell(walls_of(loose), "loose_wall", "loose_R");
     out << "\nloose_mass = " << loose.ratio << "\nloose_lower = " << loose.lower << "\nloose_upper = " << loose.upper
-        << "\nloose_R_lower = " << loose.restitution_lower << "\nloose_R_upper = " << loose.restitution_upper
-        << "\nloose_load = " << loose.load << "\nloose_x0 = " << loose.place << "\nloose_v0 = " << loose.velocity;
+        << "\nloose_load = " << loose.load << "\nloose_x0 = " << loose.place << "\nloose_v0 = " << loose.velocity
+        << "\nloose_friction = " << loose.friction << "\nloose_friction_static = " << loose.friction_static;
+  }
   if (s.time.mode == steady::Mode::steady)
     out << "\n[time]\nmax_periods = " << s.time.max_periods;
   else

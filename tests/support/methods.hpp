@@ -41,10 +41,11 @@ struct EventList {
   void arc(const A&, double, double) {}
   void event(const motion::Event& event) {
     using Kind = motion::Event::Kind;
-    if (event.kind == Kind::touch || event.kind == Kind::renewal)
-      events.push_back(accuracy::as_impact(event));
-    else if (event.kind != Kind::separation && event.kind != Kind::press)
-      events.push_back(event.in_housing());
+    const motion::Event seen = event.in_housing();
+    if (seen.kind == Kind::touch || seen.kind == Kind::renewal)
+      events.push_back(accuracy::as_impact(seen));
+    else if (seen.kind != Kind::separation && seen.kind != Kind::press)
+      events.push_back(seen);
   }
 };
 

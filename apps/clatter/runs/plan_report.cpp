@@ -120,32 +120,27 @@ std::vector<KeyAndNumber> computed_scene(const point::Problem& problem) {
   std::vector<KeyAndNumber> scene{
       {"h", o.damping}, {"f", o.forcing},           {"nu", o.frequency},         {"phase", problem.start.phase},
       {"load", o.load}, {"stiffness", o.stiffness}, {"stop_lower", stops.lower}, {"stop_upper", stops.upper}};
-  if (is_soft(stops, Side::lower)) {
-    scene.insert(scene.end(),
-                 {{"stop_stiffness_lower", stops.stiffness_lower}, {"stop_damping_lower", stops.damping_lower}});
-  } else {
-    scene.push_back({"R_lower", stops.restitution_lower});
-  }
-  if (is_soft(stops, Side::upper)) {
-    scene.insert(scene.end(),
-                 {{"stop_stiffness_upper", stops.stiffness_upper}, {"stop_damping_upper", stops.damping_upper}});
-  } else {
-    scene.push_back({"R_upper", stops.restitution_upper});
-  }
+  const auto add_stop = [&](const std::string& prefix, const std::string& R, const Stops& of, Side side) {
+    const std::string end = side == Side::lower ? "_lower" : "_upper";
+    const bool lower = side == Side::lower;
+    if (!is_soft(of, side)) return scene.push_back({R + end, lower ? of.restitution_lower : of.restitution_upper});
+    scene.push_back({prefix + "_stiffness" + end, lower ? of.stiffness_lower : of.stiffness_upper});
+    scene.push_back({prefix + "_damping" + end, lower ? of.damping_lower : of.damping_upper});
+  };
+  for (const Side side : {Side::lower, Side::upper}) add_stop("stop", "R", stops, side);
   if (has_friction(problem.friction))
     scene.insert(scene.end(),
                  {{"friction", problem.friction.kinetic}, {"friction_static", problem.friction.static_level}});
-  if (const LooseMass& loose = problem.loose; has_loose_mass(loose))
-    scene.insert(scene.end(), {{"loose_mass", loose.ratio},
-                               {"loose_lower", loose.lower},
-                               {"loose_upper", loose.upper},
-                               {"loose_R_lower", loose.restitution_lower},
-                               {"loose_R_upper", loose.restitution_upper},
-                               {"loose_load", loose.load},
+  if (const LooseMass& loose = problem.loose; has_loose_mass(loose)) {
+    scene.insert(scene.end(),
+                 {{"loose_mass", loose.ratio}, {"loose_lower", loose.lower}, {"loose_upper", loose.upper}});
+    for (const Side side : {Side::lower, Side::upper}) add_stop("loose_wall", "loose_R", walls_of(loose), side);
+    scene.insert(scene.end(), {{"loose_load", loose.load},
                                {"loose_friction", loose.friction},
                                {"loose_friction_static", loose.friction_static},
                                {"loose_x0", loose.place},
                                {"loose_v0", loose.velocity}});
+  }
   scene.insert(scene.end(), {{"x0", problem.start.displacement}, {"v0", problem.start.velocity}});
   return scene;
 }

@@ -35,9 +35,10 @@ class ImpactLog::Observer {
     using Kind = motion::Event::Kind;
     if (event.lasts() && full_) values_.rests.push_back(event.in_housing());
     if (event.kind == Kind::impact || event.kind == Kind::strike) log(event, event.after);
-    if (event.kind == Kind::touch) log(event, no_value);
-    if (event.kind == Kind::strike) values_.log.back().absolute = event.main.before + event.before;
-    if (event.kind == Kind::separation) end_contact(event);
+    if (event.kind == Kind::touch || event.kind == Kind::wall_touch) log(event, no_value);
+    if (event.kind == Kind::strike || event.kind == Kind::wall_touch)
+      values_.log.back().absolute = event.main.before + event.before;
+    if (event.kind == Kind::separation || event.kind == Kind::wall_separation) end_contact(event);
   }
   void event_at_start(const motion::Event& at_start) {
     const bool is_impact = at_start.kind == motion::Event::Kind::impact || at_start.kind == motion::Event::Kind::strike;
@@ -56,7 +57,7 @@ class ImpactLog::Observer {
   void end_contact(const motion::Event& separation) {
     const auto touched =
         std::ranges::find_if(values_.log.rbegin(), values_.log.rend(),
-                             [&](const LoggedImpact& impact) { return impact.stop == sign_of(separation.side); });
+                             [&](const LoggedImpact& impact) { return impact.stop == stop_of(separation); });
     if (touched != values_.log.rend() && std::isnan(touched->after)) touched->after = separation.after;
   }
   void log(const motion::Event& contact, double after) {
@@ -74,7 +75,7 @@ class ImpactLog::Observer {
     values_.log.push_back(logged);
   }
   [[nodiscard]] std::int8_t stop_of(const motion::Event& contact) const {
-    const bool is_wall = tells_walls_ && contact.kind == motion::Event::Kind::strike;
+    const bool is_wall = tells_walls_ && (contact.kind == motion::Event::Kind::strike || contact.is_of_soft_wall());
     return static_cast<std::int8_t>((is_wall ? 2 : 1) * sign_of(contact.side));
   }
   /// At a forcing phase, in turns.

@@ -31,10 +31,10 @@ class ImpactWord::Observer {
   /// small ones beside them. That friction holds it in its housing has none.
   void event(const motion::Event& event) {
     using Kind = motion::Event::Kind;
-    const bool has_letter =
-        event.lasts() || event.kind == Kind::impact || event.kind == Kind::touch || event.kind == Kind::strike;
+    const bool has_letter = event.lasts() || event.kind == Kind::impact || event.kind == Kind::touch ||
+                            event.kind == Kind::strike || event.kind == Kind::wall_touch;
     if (event.is_stick()) return stick(event);
-    const bool is_of_wall = event.kind == Kind::strike || event.kind == Kind::hold;
+    const bool is_of_wall = event.kind == Kind::strike || event.kind == Kind::hold || event.is_of_soft_wall();
     if (is_of_wall && event.side == Side::none) return;
     if (has_letter) see(event.time, event.side, event.velocity(), tells_walls_ && is_of_wall);
   }

@@ -22,6 +22,7 @@ struct Impacts {
     bool of_sticks = false;      ///< with it: the share of time in which dry friction holds the mass
     bool loose_impacts = false;  ///< they are those of a loose mass, on walls in place of stops
     bool wall_impacts = false;   ///< with it: those of a loose mass beside those of a main mass with stops or friction
+    bool of_soft_walls = false;  ///< with these: what only soft walls have
   };
   struct Values {
     std::array<double, 2> impacts_per_period{no_value, no_value};  ///< [stop]
@@ -34,6 +35,7 @@ struct Impacts {
     std::array<double, 2> wall_v_before{no_value, no_value}, wall_v_after{no_value, no_value};
     std::array<double, 2> wall_impact_speed{no_value, no_value};
     std::array<double, 2> wall_rest_fraction{no_value, no_value};
+    std::array<double, 2> wall_contact_fraction{no_value, no_value}, wall_contact_force_max{no_value, no_value};
   };
   static constexpr std::tuple fields{
       Field{Key{"observe", "impacts", Kind::flag, "false", "true",
@@ -59,21 +61,20 @@ struct Impacts {
         missing_if(not_hit, in_relative_frame(pair("impact_speed", "speed of the fastest impact", stop,
                                                    &Values::impact_speed, Quantity::velocity))),
         pair("rest_fraction", rest, stop, &Values::rest_fraction)};
-    if (settings.wall_impacts) add_walls(all);
+    if (settings.wall_impacts) add_walls(settings, all);
     if (settings.of_sticks)
       all.push_back(scalar("stick_fraction", "share of time in which dry friction holds the mass away from rigid stops",
                            &Values::stick_fraction));
     if (!settings.of_soft_stops) return all;
-    all.push_back(pair("contact_fraction", "share of time in contact with the stop", stop, &Values::contact_fraction));
-    all.push_back(missing_if("the stop is rigid, or isn't there",
-                             in_si("greatest force of the soft stop",
-                                   pair("contact_force_max", "greatest force of the soft stop, per unit mass", stop,
-                                        &Values::contact_force_max, Quantity::force))));
+    all.push_back(pair("contact_fraction",
+                       loose ? "share of time in contact with the wall" : "share of time in contact with the stop",
+                       stop, &Values::contact_fraction));
+    add_force(all, loose, "contact_force_max", &Values::contact_force_max);
     return all;
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
   /// Adds the columns of a loose mass beside those of the stops.
-  static void add_walls(std::vector<Column<Values>>& all) {
+  static void add_walls(const Settings& settings, std::vector<Column<Values>>& all) {
     const Coordinate wall = stop_coordinate();
     const auto of_hit = [&](Column<Values> column) { all.push_back(missing_if("the wall isn't hit", column)); };
     all.push_back(pair("wall_impacts_per_period", "impacts on the wall per forcing period", wall,
@@ -85,6 +86,25 @@ struct Impacts {
     of_hit(pair("wall_impact_speed", "speed of the fastest impact of the loose mass", wall, &Values::wall_impact_speed,
                 Quantity::velocity));
     all.push_back(pair("wall_rest_fraction", "share of time pressed on the wall", wall, &Values::wall_rest_fraction));
+    if (!settings.of_soft_walls) return;
+    all.push_back(
+        pair("wall_contact_fraction", "share of time in contact with the wall", wall, &Values::wall_contact_fraction));
+    add_force(all, true, "wall_contact_force_max", &Values::wall_contact_force_max);
+  }
+  /// Adds the greatest force of soft stops, or walls.
+  static void add_force(std::vector<Column<Values>>& all, bool is_of_wall, const char* name,
+                        std::array<double, 2> Values::*force) {
+    const Coordinate stop = stop_coordinate();
+    if (is_of_wall)
+      all.push_back(missing_if("the wall is rigid, or isn't there",
+                               in_si("greatest force of the soft wall",
+                                     pair(name, "greatest force of the soft wall, per unit of the main mass", stop,
+                                          force, Quantity::force))));
+    else
+      all.push_back(missing_if(
+          "the stop is rigid, or isn't there",
+          in_si("greatest force of the soft stop",
+                pair(name, "greatest force of the soft stop, per unit mass", stop, force, Quantity::force))));
   }
 
   struct OfStop {

@@ -24,6 +24,7 @@ class Impacts::Observer {
   void arc(const A& arc, double, double length) {
     if constexpr (A::effects.stiffness)
       if (arc.constants().stop.side != Side::none && length > 0) contact(arc, length);
+    if constexpr (motion::Housed<A>) see_wall(arc.loose, length);
   }
   /// The walls of a loose mass count like stops, beside which they are counted apart, with z' in place of the velocity.
   /// A contact with a soft stop counts like an impact if the mass comes from outside; its velocities are those at the
@@ -32,7 +33,7 @@ class Impacts::Observer {
     using Kind = motion::Event::Kind;
     if (event.is_stick()) return stick(event);
     if (event.side == Side::none) return;
-    const bool is_of_wall = event.kind == Kind::strike || event.kind == Kind::hold;
+    const bool is_of_wall = event.kind == Kind::strike || event.kind == Kind::hold || event.is_of_soft_wall();
     OfStop& stop = (tells_walls_ && is_of_wall ? walls_ : stops_)[index_of(event.side)];
     switch (event.kind) {
       case Kind::impact:
@@ -40,8 +41,10 @@ class Impacts::Observer {
         if (stop.count == 0.0) stop.after = event.after;
         return stop.meet(event.before);
       case Kind::touch:
+      case Kind::wall_touch:
         return stop.meet(event.before);
       case Kind::separation:
+      case Kind::wall_separation:
         if (std::isnan(stop.after) && stop.count > 0.0) stop.after = event.after;
         if (std::isnan(stop.left_first)) stop.left_first = event.after;
         return;
@@ -71,12 +74,16 @@ class Impacts::Observer {
       if (span.periodic && std::isnan(values.v_after[i])) values.v_after[i] = stops_[i].left_first;
       values.rest_fraction[i] = std::min(1.0, stops_[i].rest_time / span.total);
       values.contact_fraction[i] = std::min(1.0, (stops_[i].rest_time + stops_[i].contact_time) / span.total);
-      if (is_soft(span.scene.stops, i == 0 ? Side::lower : Side::upper))
+      const Side side = i == 0 ? Side::lower : Side::upper;
+      const bool are_walls = has_loose_mass(span.scene.loose) && !tells_walls_;
+      if (are_walls ? is_soft(span.scene.loose, side) : is_soft(span.scene.stops, side))
         values.contact_force_max[i] = std::max(0.0, stops_[i].force.high);
       values.wall_impacts_per_period[i] = walls_[i].count / periods;
       values.wall_v_before[i] = walls_[i].before, values.wall_v_after[i] = walls_[i].after;
       if (walls_[i].count > 0) values.wall_impact_speed[i] = walls_[i].fastest;
       values.wall_rest_fraction[i] = std::min(1.0, walls_[i].rest_time / span.total);
+      values.wall_contact_fraction[i] = std::min(1.0, (walls_[i].rest_time + walls_[i].contact_time) / span.total);
+      if (is_soft(span.scene.loose, side)) values.wall_contact_force_max[i] = std::max(0.0, walls_[i].force.high);
     }
     return values;
   }
@@ -107,10 +114,25 @@ class Impacts::Observer {
     OfStop& stop = stops_[index_of(of_arc.side)];
     stop.contact_time += length;
     if (!(arc.length() > 0)) return;
-    Bernstein<double> force;
+    auto force = arc.offset();
+    const auto velocity = arc.velocity();
     for (std::size_t i = 0; i < force.size(); ++i)
-      force[i] = of_arc.force(of_arc.into(arc.offset()[i]), of_arc.into(arc.velocity()[i]));
+      force[i] = of_arc.force(of_arc.into(force[i]), of_arc.into(velocity[i]));
     include_polynomial(stop.force, split_off(force, length / arc.length()));
+  }
+
+  /// The contact of a loose mass with a soft wall.
+  template <class L>
+  void see_wall(const L& loose, double length) {
+    if constexpr (requires { loose.coupling(); }) {
+      const motion::SoftStop<double>& wall = loose.coupling().wall;
+      if (!loose.coupling().pushes || !(length > 0)) return;
+      OfStop& stop = (tells_walls_ ? walls_ : stops_)[index_of(wall.side)];
+      stop.contact_time += length;
+      auto force = from_powers(loose.push_powers());
+      for (double& push : force) push *= sign_of(wall.side);
+      include_polynomial(stop.force, split_off(force, length / loose.length()));
+    }
   }
 
   bool tells_walls_ = false;

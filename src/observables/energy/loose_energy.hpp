@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <type_traits>
 
 #include "motion/event.hpp"
 #include "motion/housed_arc.hpp"
@@ -47,6 +48,59 @@ template <class A>
   return sum;
 }
 
+/// What soft walls take of the energy of both masses, and store (eq. 74), per unit of the main mass.
+class SoftWalls {
+ public:
+  explicit SoftWalls(const LooseMass& loose)
+      : walls_{motion::soft_wall_at<double>(loose, Side::lower), motion::soft_wall_at<double>(loose, Side::upper)},
+        are_soft_(has_soft_wall(loose)) {}
+
+  /// Beside an arc: adds to what each wall has taken, and to its impulse.
+  template <class L>
+  void arc(const L& loose, double length, std::array<double, 2>& lost, std::array<double, 2>& impulse) {
+    if (!are_soft_) return;
+    const double before = stored_at(loose, 0.0), after = stored_at(loose, length);
+    if (!begin_) begin_ = before;
+    end_ = after;
+    if constexpr (requires { loose.coupling(); }) {
+      const motion::SoftStop<double>& wall = loose.coupling().wall;
+      const std::size_t side = index_of(wall.side);
+      if (!loose.coupling().pushes) return void(lost[side] += before - after);  // as the wall relaxes
+      over_panel<20>(length / 2, length / 2, [&](double s, double weight) {
+        const motion::Motion<double> z = loose.at(s);
+        lost[side] += weight * 2 * wall.damping * z.v * z.v;
+        impulse[side] += weight * wall.force(wall.into(z.offset), wall.into(z.v));
+      });
+    } else if constexpr (std::is_same_v<L, motion::Pressed>) {  // by friction alone, as the walls are soft
+      for (const motion::SoftStop<double>& wall : walls_)
+        if (const double depth = wall.into(loose.place - wall.position); wall.side != Side::none && depth > 0)
+          impulse[index_of(wall.side)] += length * wall.force(depth, 0.0);
+    }
+  }
+  [[nodiscard]] double growth() const { return end_ - begin_.value_or(end_); }  ///< of what they store
+
+ private:
+  /// The energy of the springs, which follow the mass; between the walls 0.
+  template <class L>
+  [[nodiscard]] double stored_at(const L& loose, double s) const {
+    if constexpr (requires { loose.coupling(); })
+      return stored_by(loose.coupling().wall, loose.at(s).offset);
+    else if constexpr (std::is_same_v<L, motion::Pressed>)
+      return stored_by(walls_[0], loose.place - walls_[0].position) +
+             stored_by(walls_[1], loose.place - walls_[1].position);
+    return 0.0;
+  }
+  [[nodiscard]] static double stored_by(const motion::SoftStop<double>& wall, double offset) {
+    const double depth = wall.side == Side::none ? 0.0 : std::max(0.0, wall.into(offset));
+    return wall.side == Side::none ? 0.0 : wall.stiffness * depth * depth / 2;
+  }
+
+  std::array<motion::SoftStop<double>, 2> walls_;  ///< [wall]
+  bool are_soft_;
+  std::optional<double> begin_{};  ///< stored when it was seen first
+  double end_ = 0.0;
+};
+
 /// The energy ledger of a main mass and a loose one, per unit of the main mass (eq. 74): its energy is
 /// (x'^2 + k x^2 + eps y'^2)/2, in the frame of a base that is shaken, whose inertial forces on both masses do work.
 class LooseEnergy {
@@ -55,6 +109,7 @@ class LooseEnergy {
       : oscillator_(span.scene.oscillator),
         loose_(span.scene.loose),
         rule_(loose_),
+        walls_(loose_),
         frame_(span.scene.shaking, oscillator_, span.theta),
         total_(span.total) {}
 
@@ -82,7 +137,7 @@ class LooseEnergy {
     see_begin(x, v);
     const double growth = energy(x, v, loose_v_, frame_end()) -
                           (begin_ ? energy(begin_->x, begin_->v, begin_loose_.value_or(0.0), frame_begin()) : 0.0);
-    return {work_, damped_, rubbed_, growth, lost_, impulse_};
+    return {work_, damped_, rubbed_, growth + walls_.growth(), lost_, impulse_};
   }
   [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
@@ -112,6 +167,7 @@ class LooseEnergy {
       work_ += weight * loose_.ratio * (loose_.load - b.a) * (loose.velocity(s) - b.v);
     });
     loose_v_ = loose.velocity(length), rubbed_ += rubbed_by(loose_, loose, length);
+    walls_.arc(loose, length, lost_, impulse_);
   }
   template <class A>
   void see_loose(const A& main, const motion::Pressed& loose, double, double length) {
@@ -119,6 +175,7 @@ class LooseEnergy {
     see_begin_of_loose(first);
     if (loose.wall != Side::none) impulse_[index_of(loose.wall)] += impulse_of_wall(loose_, loose.wall, main, length);
     loose_v_ = last;
+    walls_.arc(loose, length, lost_, impulse_);
   }
 
   /// Displacement, velocity and acceleration of a base.
@@ -165,6 +222,7 @@ class LooseEnergy {
   Oscillator oscillator_;
   LooseMass loose_;
   motion::WallRule<double> rule_;
+  SoftWalls walls_;
   FrameMotion frame_;
   double total_;
   std::optional<Place> begin_{};         ///< of the main mass
@@ -178,7 +236,7 @@ class LooseEnergy {
 /// losses on the walls, and its energy.
 class LooseShare {
  public:
-  explicit LooseShare(const LooseMass& loose) : loose_(loose), rule_(loose) {}
+  explicit LooseShare(const LooseMass& loose) : loose_(loose), rule_(loose), walls_(loose) {}
 
   template <class A>
   void arc(const A& arc, double length) {
@@ -188,7 +246,8 @@ class LooseShare {
   /// Tells whether it is one of a loose mass.
   bool event(const motion::Event& event) {
     using Kind = motion::Event::Kind;
-    if (event.kind != Kind::strike && event.kind != Kind::press) return event.kind == Kind::hold;
+    if (event.kind != Kind::strike && event.kind != Kind::press)
+      return event.kind == Kind::hold || event.is_of_soft_wall();
     if (!begin_) begin_ = event.main.before + event.before;
     lost_[index_of(event.side)] += rule_.loss(event.before, event.after);
     impulse_[index_of(event.side)] += rule_.share() * std::abs(event.before - event.after);
@@ -202,15 +261,20 @@ class LooseShare {
   /// Of a period the work is rounding alone.
   [[nodiscard]] double work() const { return loose_.ratio * loose_.load * way_; }
   [[nodiscard]] double growth() const {
-    return loose_.ratio * (end_ - begin_.value_or(0.0)) * (end_ + begin_.value_or(0.0)) / 2;
+    return loose_.ratio * (end_ - begin_.value_or(0.0)) * (end_ + begin_.value_or(0.0)) / 2 + walls_.growth();
   }
 
  private:
   template <class A, class Flight>
-  void see(const A&, const Flight& loose, double length) {
+  void see([[maybe_unused]] const A& main, const Flight& loose, double length) {
     const double from = loose.velocity(0.0);
     if (!begin_) begin_ = from;
-    end_ = loose.velocity(length), way_ += (from + end_) / 2 * length, rubbed_ += rubbed_by(loose_, loose, length);
+    end_ = loose.velocity(length), rubbed_ += rubbed_by(loose_, loose, length);
+    if constexpr (requires { loose.coupling(); })
+      way_ += (loose.at(length).offset - loose.start().offset) + (main.at(length).offset - main.start().offset);
+    else
+      way_ += (from + end_) / 2 * length;
+    walls_.arc(loose, length, lost_, impulse_);
   }
   template <class A>
   void see(const A& main, const motion::Pressed& loose, double length) {
@@ -218,10 +282,12 @@ class LooseShare {
     if (!begin_) begin_ = from.v;
     if (loose.wall != Side::none) impulse_[index_of(loose.wall)] += impulse_of_wall(loose_, loose.wall, main, length);
     end_ = to.v, way_ += to.offset - from.offset;
+    walls_.arc(loose, length, lost_, impulse_);
   }
 
   LooseMass loose_;
   motion::WallRule<double> rule_;
+  SoftWalls walls_;
   std::optional<double> begin_{};             ///< y'
   double end_ = 0.0, way_ = 0.0;              ///< y', and by how much y grows
   double rubbed_ = 0.0;                       ///< the loss by friction in the housing

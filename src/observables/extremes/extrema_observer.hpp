@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "math/bernstein.hpp"
 #include "motion/event.hpp"
@@ -73,8 +74,8 @@ class Extrema::Observer {
             v_.high,
             y_.low,
             y_.high,
-            std::max(z_.low, loose.lower),
-            std::min(z_.high, loose.upper)};
+            is_soft(loose, Side::lower) ? z_.low : std::max(z_.low, loose.lower),
+            is_soft(loose, Side::upper) ? z_.high : std::min(z_.high, loose.upper)};
   }
   [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
@@ -88,7 +89,8 @@ class Extrema::Observer {
   void see_main(const A& arc, double begin, double length) {
     ++evaluations_;
     const double part = arc.length() > 0 ? length / arc.length() : 0.0;
-    Bernstein<double> offset = arc.offset(), velocity = arc.velocity();
+    auto offset = arc.offset();
+    auto velocity = arc.velocity();
     offset = split_off(offset, part), velocity = split_off(velocity, part);
     if (absolute_ != nullptr) return include_absolute(x_, v_, arc, begin, length, offset, velocity);
     include_polynomial(x_, offset, arc.anchor());
@@ -104,17 +106,17 @@ class Extrema::Observer {
     if (absolute_ == nullptr) return look_at_place(y_, loose, length);
     look_at_place(y_, AbsoluteArc(loose, *absolute_->frame, Stops{}, begin), length);
   }
-  template <Effects E>
-  void see_loose(const motion::PolynomialArc<E>& main, const motion::PolynomialInHousing<E>& arc, double begin,
-                 double length) {
+  template <motion::Polynomial A, motion::Polynomial L>
+  void see_loose(const A& main, const L& arc, double begin, double length) {
     if (!(length > 0)) return;
-    Bernstein<double> place = arc.offset(), way = arc.way();
+    auto place = arc.offset();
+    const auto way = arc.way();
     include_polynomial(z_, split_off(place, length / arc.length()), arc.anchor());
     include_loose(main, begin, length, way, arc.anchor());
   }
   /// While a wall presses it, a loose mass moves with the main mass.
-  template <Effects E>
-  void see_loose(const motion::PolynomialArc<E>& main, const motion::Pressed& loose, double begin, double length) {
+  template <motion::Polynomial A>
+  void see_loose(const A& main, const motion::Pressed& loose, double begin, double length) {
     z_.include(loose.place);
     if (length > 0) include_loose(main, begin, length, main.offset(), loose.place);
   }
@@ -145,8 +147,8 @@ class Extrema::Observer {
   }
 
   /// The displacement of a loose mass over a part of a step: a polynomial, `apart` from the anchor of the main mass.
-  template <motion::Polynomial A>
-  void include_loose(const A& main, double begin, double length, Bernstein<double> way, double apart) {
+  template <motion::Polynomial A, std::size_t size>
+  void include_loose(const A& main, double begin, double length, std::array<double, size> way, double apart) {
     ++evaluations_;
     way = split_off(way, length / main.length());
     if (absolute_ == nullptr) return include_polynomial(y_, way, main.anchor() + apart);
@@ -178,9 +180,9 @@ class Extrema::Observer {
     for (int quarter = 0; quarter < 4; ++quarter) include_absolute(x, v, sine_cosine_of_turns(quarter / 4.0));
   }
   /// Polynomials, by pieces of a sixty-fourth of a radian, over which the frame is one, too, to rounding.
-  template <motion::Polynomial A>
-  void include_absolute(Range& x, Range& v, const A& arc, double begin, double length, Bernstein<double> offset,
-                        Bernstein<double> velocity, double apart = 0.0) {
+  template <motion::Polynomial A, std::size_t size>
+  void include_absolute(Range& x, Range& v, const A& arc, double begin, double length, std::array<double, size> offset,
+                        std::array<double, size> velocity, double apart = 0.0) {
     const FrameMotion& frame = *absolute_->frame;
     const auto theta = [&](double s) {
       if (!frame.is_forced()) return frame.at(begin + s);
@@ -210,8 +212,10 @@ class Extrema::Observer {
     return hermite(
         HermiteData<double>::over(step, {y(0, left), y(1, left), y(2, left), y(0, right), y(1, right), y(2, right)}));
   }
-  [[nodiscard]] static Bernstein<double> sum(Bernstein<double> a, const Bernstein<double>& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+  template <std::size_t size>
+  [[nodiscard]] static std::array<double, size> sum(std::array<double, size> a, const Bernstein<double>& b) {
+    const auto raised = raised_to<size - 1>(b);
+    for (std::size_t i = 0; i < size; ++i) a[i] += raised[i];
     return a;
   }
   [[nodiscard]] static double absolute_amplitude(const FrameMotion& frame, const Response<double>& relative) {

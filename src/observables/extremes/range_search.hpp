@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <type_traits>
 
@@ -14,13 +15,14 @@
 namespace clatter::observables {
 
 /// Includes a polynomial over a step, which lies within the range of its coefficients; halved at most so many times.
-inline void include_polynomial(Range& range, Bernstein<double> y, double offset = 0.0, int halvings = 52) {
+template <std::size_t size>
+void include_polynomial(Range& range, std::array<double, size> y, double offset = 0.0, int halvings = 52) {
   range.include(offset + y.front()), range.include(offset + y.back());
   const auto [least, greatest] = std::ranges::minmax(y);
   const double low = offset + least, high = offset + greatest;
   const double rounding = 4 * epsilon<double>() * std::max(std::abs(low), std::abs(high));
   if (!(high > range.high + rounding || low < range.low - rounding) || halvings == 0) return;
-  const Bernstein<double> left = split_off(y, 0.5);
+  const auto left = split_off(y, 0.5);
   include_polynomial(range, left, offset, halvings - 1);
   include_polynomial(range, y, offset, halvings - 1);
 }

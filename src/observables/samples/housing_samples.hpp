@@ -13,7 +13,7 @@ namespace clatter::observables {
 class HousingSamples : public InHousing<Samples> {
  public:
   HousingSamples(std::size_t count, double spacing, AtImpact at_impact, const LooseMass& loose, double first = 0.0)
-      : InHousing(std::in_place, count, spacing, at_impact, Stops{.lower = loose.lower, .upper = loose.upper}, first) {}
+      : InHousing(std::in_place, count, spacing, at_impact, walls_of(loose), first) {}
 
   /// Ends the observed time, of length `total`, where the mass is.
   void finish(double total, bool periodic) { of().finish(last_z(), last_w(), total, periodic); }

@@ -11,15 +11,15 @@
 
 namespace clatter::observables {
 
-/// Tells whether rounding decides if a loose mass meets a wall: it strikes the wall so slowly that it would turn back
-/// within rounding of it, or it does turn back there. And whether it decides which comes first, that or a contact of
-/// the main mass with a stop.
+/// Tells whether rounding decides if a loose mass meets a rigid wall: it strikes the wall so slowly that it would turn
+/// back within rounding of it, or it does turn back there. And whether it decides which comes first, that or a contact
+/// of the main mass with a stop.
 class WallGrazes {
  public:
   /// `rounding` bounds the errors of displacements.
   WallGrazes(const Scene& scene, double rounding)
-      : walls_{.lower = scene.loose.lower, .upper = scene.loose.upper},
-        inner_{.lower = scene.loose.lower + rounding, .upper = scene.loose.upper - rounding},
+      : walls_(rigid_ones(walls_of(scene.loose))),
+        inner_{.lower = walls_.lower + rounding, .upper = walls_.upper - rounding},
         stops_{.lower = scene.stops.lower, .upper = scene.stops.upper},
         rounding_(rounding) {}
 
@@ -54,8 +54,8 @@ class WallGrazes {
       grazes_ = true;
   }
   /// Motion by a general method isn't known to rounding.
-  template <Effects E>
-  void look_at(const motion::PolynomialInHousing<E>& arc, double length) {
+  template <motion::Polynomial A>
+  void look_at(const A& arc, double length) {
     turning_ = arc.at(length).a;
   }
   void look_at(const motion::Pressed&, double) { loose_ = main_ = {}; }

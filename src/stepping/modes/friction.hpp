@@ -20,13 +20,21 @@ template <class Loop, class State>
   using Number = typename Loop::Number;
   return Number(loop.holding_at(state).constant + loop.constants().f * loop.phase(state).sine);
 }
+/// The rate of these forces.
+template <class Loop, class State>
+[[nodiscard]] auto rate_of_push(const Loop& loop, const State& state) {
+  using Number = typename Loop::Number;
+  const auto& c = loop.constants();
+  if constexpr (requires { loop.walls(); })
+    if (!Loop::carries && state.loose.pushed)
+      return Number(c.f * c.nu * loop.phase(state).cosine + loop.walls().rate_of_push(state.loose));
+  return Number(c.f * loop.phase(state).cosine);
+}
 /// The side that a mass slips to: that of its velocity, or that to which it is pushed, or let go.
 template <class Loop, class State>
 [[nodiscard]] Side heading(const Loop& loop, const State& state) {
   using Number = typename Loop::Number;
-  const Number way = state.v != 0     ? state.v
-                     : state.released ? Number(loop.constants().f * loop.phase(state).cosine)
-                                      : push(loop, state);
+  const Number way = state.v != 0 ? state.v : state.released ? rate_of_push(loop, state) : push(loop, state);
   return way > 0 ? Side::upper : Side::lower;
 }
 /// Calls `function(constants)` with those of a slip towards a side.
@@ -84,6 +92,9 @@ struct Stuck {
   [[nodiscard]] static Outcome run(Loop& loop, Stage& stage, const Holding& holding) {
     auto& state = stage.state;
     if (holding.stop != Side::none) state.from_stop = holding.stop, state.offset = 0;
+    if constexpr (modes::may_meet_soft_walls<Loop>)
+      if (state.loose.within)
+        return modes::stay_at_wall(loop, stage, holding.stop, std::optional(holding), stage.end, true);
     std::optional<Number> first;
     for (const Side side : {Side::lower, Side::upper})
       if (const auto release = modes::upcoming(modes::in_section(loop, holding.release_phase(loop.constants(), side)),

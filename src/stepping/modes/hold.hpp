@@ -18,9 +18,11 @@ template <class Loop, class State>
 /// friction, away from which that holds it to either side.
 template <class Number, class Function>
 void for_each_hold(const motion::Walls<Number>& walls, const motion::LooseState<Number>& loose, Function&& function) {
+  const bool on_wall = walls.lies_on_wall(loose);
+  const Number load = walls.load - walls.push(loose) / walls.rule.ratio;
   for (const Side side : {Side::lower, Side::upper})
-    if (side == loose.wall || (loose.place != 0 && walls.is_rough()))
-      function(Pressing<Number>{side, Number(walls.load + sign_of(side) * walls.hold)});
+    if (on_wall ? side == loose.wall : walls.is_rough())
+      function(Pressing<Number>{side, Number(load + sign_of(side) * walls.hold)});
 }
 /// How much force is left, as an acceleration of the loose mass, until it leaves a main mass of some acceleration, and
 /// the side of that force.
@@ -68,7 +70,7 @@ template <class Loop, class State, class A, class Number>
 template <class Loop, class Stage, class A, class Number>
 void show_as_one(const Loop& loop, const Stage& stage, const A& main, const Number& length) {
   const auto& loose = stage.state.loose;
-  const Side side = loose.place == 0 ? loose.wall : Side::none;
+  const Side side = loop.walls().lies_on_wall(loose) ? loose.wall : Side::none;
   const double place = static_cast<double>(loop.walls().place(loose.wall) + loose.place);
   stage.show(motion::HousedArc{main, motion::Pressed{side, place}}, length);
   stage.show({.kind = Stage::Kind::hold,

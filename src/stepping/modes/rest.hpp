@@ -21,6 +21,12 @@ struct AtRest {
   [[nodiscard]] static Outcome run(Loop& loop, Stage& stage, const motion::Stop<Number>& stop) {
     auto& state = stage.state;
     state.from_stop = stop.side, state.offset = 0;
+    if constexpr (modes::may_meet_soft_walls<Loop>)
+      if (state.loose.within) {
+        const Number constant = loop.constants().constant_force(stop.position) + loop.push(state);
+        const motion::Holding<Number> holding{stop.side, constant, Number(0)};
+        return modes::stay_at_wall(loop, stage, stop.side, std::optional(holding), stage.end, true);
+      }
     return laws::hold(loop, stage, stop.side,
                       modes::upcoming(modes::release_turns(loop, stop), state.phase_turns, stage.end));
   }
