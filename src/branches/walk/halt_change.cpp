@@ -244,8 +244,8 @@ Orbit without_short_slips(const FollowedScene& scene, Orbit orbit, double length
 
 }  // namespace
 
-std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at) {
-  constexpr double about_to_vanish = 0.1;  // rad
+std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at,
+                                         double about_to_vanish) {
   const FollowedScene scene = equations.scene_at(at.at);
   const Orbit orbit = equations.orbit_at(at.at);
   if (orbit.size() < 2) return std::nullopt;

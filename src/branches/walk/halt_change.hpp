@@ -23,9 +23,10 @@ struct HaltChange {
   std::optional<HaltForm> before{}, beyond{};  ///< of that halt; nothing: the motion isn't one of these
   std::optional<Opening::Kind> opens{};        ///< what begins from nothing beyond
 };
-/// The change at which the shortest slip to a halt vanishes, if it is about to: its beginning and the halt become one
-/// stick.
-[[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at);
+/// The change at which the shortest slip to a halt vanishes, if it is about to, being shorter than some of the forcing
+/// phase, rad: its beginning and the halt become one stick.
+[[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at,
+                                                       double about_to_vanish = 0.1);
 
 /// Whether a reversal on a stop, as an impact there loses its speed, is none: the static level of friction, which is
 /// above the kinetic one, holds the mass. Motion jumps there.
