@@ -59,7 +59,7 @@ Side stop_at(const FollowedScene& scene, const OrbitEvent& halt) {
 }  // namespace
 
 std::optional<FrictionEnd> nearest_end(const Equations& builder, const OrbitEquations& walked, const Narrowed& between,
-                                       double within, double tolerance) {
+                                       bool symmetric_scenes, double within, double tolerance) {
   const FollowedScene beyond = walked.scene_at(between.beyond.at);
   if (!has_friction(beyond.friction)) return std::nullopt;
   const std::vector<Violation> violations = slip_violations(beyond, walked.orbit_at(between.beyond.at), {});
@@ -75,7 +75,7 @@ std::optional<FrictionEnd> nearest_end(const Equations& builder, const OrbitEqua
     if (off < least) least = off, nearest = FrictionEnd{*exact, what...};
   };
   for (const HaltChange& change : halt_changes(walked, between, violations))
-    consider(exact_change(builder, beyond, change, within, tolerance), change);
+    consider(exact_change(builder, beyond, change, symmetric_scenes, within, tolerance), change);
   for (const Violation& graze : grazes_of(beyond, walked.shape(), violations)) {
     const Touch touch = touch_of(walked, {between.last_good, between.beyond, graze});
     consider(exact_graze(builder, beyond, touch.graze(), 0.0, false, within, tolerance), std::nullopt, graze);

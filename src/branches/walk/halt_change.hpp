@@ -41,13 +41,14 @@ struct HaltChange {
                                                    const std::vector<Violation>& violations);
 
 /// The scene and the motion of a change within a distance of the parameter, over the width of its range; nothing if
-/// there is none.
+/// there is none. Motion that is its own mirror image there is kept as a half if all scenes that follow are symmetric.
 [[nodiscard]] std::optional<ExactGraze> exact_change(const Equations& equations, const FollowedScene& near,
-                                                     const HaltChange& change, double within, double tolerance);
+                                                     const HaltChange& change, bool symmetric_scenes, double within,
+                                                     double tolerance);
 
 /// Whether a slip is about to vanish so near that the parameter has no digits between there and here: then it may turn,
 /// and measures with it, by rounding alone.
 [[nodiscard]] bool slip_vanishes_beside(const Equations& builder, const OrbitEquations& walked, const CurvePoint& at,
-                                        double tolerance);
+                                        bool symmetric_scenes, double tolerance);
 
 }  // namespace clatter::branches
