@@ -46,7 +46,7 @@ class CurveCampaign:
                 self.cross(i, scene, kind, found, middle, limits)
 
     def keeps_multiplier(self, i, kind, found, on):
-        """Both ends aside, and curves that hardly leave one: an impact without speed takes the digits of multipliers."""
+        """Both ends aside, and short curves: an impact without speed takes the digits of multipliers."""
         if kind not in ("fold", "flip") or len(on) < 8:
             return
         of = {"fold": 1, "flip": -1}[kind]
