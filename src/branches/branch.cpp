@@ -173,7 +173,7 @@ class Follower {
       if (birth_at(f.kind) || f.kind == SpecialKind::neimark_sacker) return false;
       const auto is_near = [&](double turn) { return std::abs(f.point.at.back() - turn) <= beside_singular; };
       if (std::ranges::any_of(turns_at_, is_near)) return true;
-      if (slip_vanishes_beside(any_equations(), equations, f.point, settings_.tolerance)) return true;
+      if (slip_vanishes_beside(any_equations(), equations, f.point, symmetric_, settings_.tolerance)) return true;
       if (f.kind != SpecialKind::fold) return false;
       return born || (!from && is_turn_of_birth(equations, walk, 2 * step, symmetric_));
     });
@@ -226,8 +226,8 @@ class Follower {
     std::optional<Narrowed> between = narrowed(equations, walk, step);
     if (!between) return end_without_step(equations, record_.point(equations, walk.here()), walk.here());
     if (between->violated.kind == Violation::Kind::at_once) return end_at_once(equations, walk, *between, from);
-    const auto end = nearest_end(any_equations(), equations, *between, std::max(step, 1e-2 * settings_.largest_step),
-                                 settings_.tolerance);
+    const auto end = nearest_end(any_equations(), equations, *between, symmetric_,
+                                 std::max(step, 1e-2 * settings_.largest_step), settings_.tolerance);
     double length = between->last_good.arclength - walk.here().arclength;
     if (end && end->change)  // where a slip vanishes, derivatives have no digits
       length *= 1 - 1e-4, turns_at_.push_back(parameter(end->exact.scene) / width_);
@@ -286,7 +286,8 @@ class Follower {
   /// No step leads on: under dry friction, as a slip vanishes; or as two events are about to change places.
   void end_without_step(const OrbitEquations& equations, const BranchPoint& last, const CurvePoint& here) {
     const Narrowed at{here, here, {}};
-    const auto end = nearest_end(any_equations(), equations, at, settings_.largest_step, settings_.tolerance);
+    const auto end =
+        nearest_end(any_equations(), equations, at, symmetric_, settings_.largest_step, settings_.tolerance);
     if (ends_in_halt(equations, here, end)) return;
     has_events_at_once(last.orbit) ? end_at_once(last) : record_.fail(last, no_step);
   }

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <tuple>
 #include <utility>
 
+#include "branches/curve_graze.hpp"
 #include "branches/equations/housing_multipliers.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/record.hpp"
 #include "branches/simultaneous_end.hpp"
+#include "branches/walk/change_on_curve.hpp"
 #include "branches/walk/resonant_graze.hpp"
 #include "branches/walk/touch.hpp"
 
@@ -17,37 +20,6 @@ namespace clatter::branches {
 namespace {
 
 constexpr std::size_t along_axis = 0, across_axis = 1;
-
-/// Of those on rigid stops.
-std::size_t slowest_impact(const Orbit& orbit) {
-  const auto slow = std::ranges::min_element(orbit.events, {}, [](const OrbitEvent& event) {
-    return is_impact(event.kind) ? std::abs(event.before) : std::numeric_limits<double>::infinity();
-  });
-  return static_cast<std::size_t>(slow - orbit.events.begin());
-}
-
-/// The event with which the shortest contact with a soft stop, or interruption of one, begins; nothing if none is
-/// short.
-std::optional<std::size_t> shortest_contact(const Orbit& orbit) {
-  constexpr double is_short = 1e-2;  // rad
-  std::optional<std::size_t> found;
-  double least = is_short;
-  for (std::size_t i = 0; i < orbit.size(); ++i) {
-    const OrbitEvent from = orbit.event(i), to = orbit.event(i + 1);
-    const bool contact = to.kind == Event::Kind::separation && presses(from.kind),
-               interruption = presses(to.kind) && from.kind == Event::Kind::separation && from.side == to.side;
-    if ((contact || interruption) && to.phase - from.phase < least) least = to.phase - from.phase, found = i;
-  }
-  return found;
-}
-
-/// A graze, of motion over many periods in one of them, as that of the motion that repeats sooner.
-void make_once(SpecialPoint& graze) {
-  Orbit& orbit = graze.at.orbit;
-  if (!is_impact(orbit.events[graze.condition.event].kind)) return;  // is so already
-  orbit = orbit.once_with_graze(slowest_impact(orbit), is_symmetric(graze.at.scene));
-  graze.condition = {Condition::Kind::graze, 1, slowest_impact(orbit)};
-}
 
 Condition condition_of(const SpecialPoint& special) {
   if (special.kind == SpecialKind::graze) return special.condition;
@@ -67,12 +39,6 @@ class CurveFollower {
   Branches run() {
     if (settings_.along.role() == Role::shaking && settings_.across->role() == Role::shaking)
       throw SettingError("stops and base can't be shaken at once; expected another branch.across");
-    const bool is_level = settings_.along.role() == Role::friction || settings_.across->role() == Role::friction;
-    if (has_friction(problem_.friction) || is_level)
-      throw SettingError(
-          "no curve of special points is followed under dry friction; leave out branch.across and branch.curve, and "
-          "follow branches at several values of " +
-          std::string(settings_.across->key()));
     require_start_in_range(problem_, *settings_.across, settings_.across_range, "across");
     Branches along = follow_branches(problem_, settings_);
     std::erase_if(along.ends, [](const BranchEnd& end) { return !end.failed; });
@@ -84,7 +50,7 @@ class CurveFollower {
                        " on the branch is of motion that rests, whose special points begin no curves; begin on another "
                        "motion");
     for (SpecialPoint& start : along.special) {
-      if (start.kind == SpecialKind::graze) make_once(start);
+      if (start.kind == SpecialKind::graze) make_once(start, keeps_symmetry_of(start.at.scene));
       if (!record_.knows(start.kind, start.at) && !record_.is_full()) follow(start);
     }
     Branches found = record_.take();
@@ -94,6 +60,10 @@ class CurveFollower {
   }
 
  private:
+  /// Whether all scenes are symmetric if one is.
+  [[nodiscard]] bool keeps_symmetry_of(const FollowedScene& scene) const {
+    return is_symmetric(scene) && keeps_symmetry(scene, settings_.along) && keeps_symmetry(scene, *settings_.across);
+  }
   double width_of(std::size_t axis) const {
     const double width = ranges_[axis][1] - ranges_[axis][0];
     if (std::isfinite(width)) return width;
@@ -109,6 +79,13 @@ class CurveFollower {
   }
   [[nodiscard]] OrbitEquations equations_for(const Orbit& orbit, std::vector<Condition> conditions) const {
     return {problem_, orbit, axes_, speed_unit_, std::move(conditions)};
+  }
+  [[nodiscard]] Equations any_equations() const { return std::bind_front(&CurveFollower::equations_for, this); }
+  /// A point of the curve, whose word has the letter of an impact without speed.
+  [[nodiscard]] BranchPoint point_of(const OrbitEquations& equations, const CurvePoint& at) const {
+    BranchPoint point = record_.point(equations, at);
+    point.orbit = with_impact_at_graze(point.scene, point.orbit, equations.grazing());
+    return point;
   }
   [[nodiscard]] double parameter(const Vector& at, std::size_t axis) const {
     return at[at.size() - 2 + axis] * axes_[axis].unit;
@@ -131,15 +108,15 @@ class CurveFollower {
     record_.walk_back();
     const bool closed = walk(equations, back);
     record_.turn_round();
-    record_.add(record_.point(equations, start));
-    record_.note(from.kind, record_.point(equations, start));
+    record_.add(point_of(equations, start));
+    record_.note(from.kind, point_of(equations, start));
     if (!closed && !record_.is_full()) walk(equations, start);
   }
 
   /// Returns true if the curve is closed.
   bool walk(const OrbitEquations& equations, const CurvePoint& start) {
     Walk walk(equations, start, {settings_.tolerance, settings_.largest_step});
-    BranchPoint last = record_.point(equations, start);
+    BranchPoint last = point_of(equations, start);
     if (leaves_ranges(start)) return record_.end(last, "range"), false;
     for (;;) {
       if (record_.is_full()) return record_.fail(last, max_points_spent), false;
@@ -158,10 +135,10 @@ class CurveFollower {
       if (walk.passes(start, *next)) {
         CurvePoint closing = start;
         closing.arclength = next->arclength;
-        return record_.add(record_.point(equations, closing)), record_.end(last, "closed"), true;
+        return record_.add(point_of(equations, closing)), record_.end(last, "closed"), true;
       }
       walk.move_to(*next);
-      last = record_.point(equations, *next);
+      last = point_of(equations, *next);
       record_.add(last);
     }
   }
@@ -179,13 +156,13 @@ class CurveFollower {
 
   void end_at_bound(const OrbitEquations& equations, const Walk& walk, std::size_t axis, double bound, double step) {
     auto zero = walk.zero([&](const CurvePoint& p) { return parameter(p.at, axis) - bound; }, step);
-    if (!zero) return record_.fail(record_.point(equations, walk.here()), no_step);
+    if (!zero) return record_.fail(point_of(equations, walk.here()), no_step);
     zero->at[zero->at.size() - 2 + axis] = bound / axes_[axis].unit;  // R = 0 less a rounding would be no impact
     const double length = zero->arclength - walk.here().arclength;
     if (violation(equations, zero->at)) return end_in_graze(equations, walk, length);
     special_between(equations, walk, length);
     note_start_between(equations, walk, length);
-    const BranchPoint last = record_.point(equations, *zero);
+    const BranchPoint last = point_of(equations, *zero);
     record_.add(last), record_.end(last, "range");
   }
 
@@ -193,10 +170,12 @@ class CurveFollower {
   /// resonant graze, in which curves of multipliers +1 and -1 meet that of the graze.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step) {
     const auto between = narrowed(equations, walk, step);
-    if (!between) return record_.fail(record_.point(equations, walk.here()), no_step);
+    if (!between) return record_.fail(point_of(equations, walk.here()), no_step);
     if (between->violated.kind == Violation::Kind::at_once)
       return end_at(SpecialKind::simultaneous,
-                    record_.point(equations, point_at_once(equations, walk, *between).value_or(between->last_good)));
+                    point_of(equations, point_at_once(equations, walk, *between).value_or(between->last_good)));
+    if (const auto change = change_on_curve(any_equations(), equations, walk, step, *between))
+      return end_in_change(equations, walk, between->last_good, *change);
     const std::optional<Touch> touch = touch_of(equations, *between);
     special_between(equations, walk, touch->last_good.arclength - walk.here().arclength);
     if (touch->vanishes && ends_without_contact(equations, touch->last_good, touch->beyond.at, *touch->vanishes))
@@ -205,7 +184,7 @@ class CurveFollower {
     const bool of_multiplier = condition.kind == Condition::Kind::multiplier;
     if (touch->appears && of_multiplier) condition.without = touch->event;
     if (touch->appears && !of_multiplier && touch->event <= condition.event) ++condition.event;
-    BranchPoint last = record_.point(equations, touch->last_good);
+    BranchPoint last = point_of(equations, touch->last_good);
     const FollowedScene near = equations.scene_at(touch->beyond.at);
     const bool on_soft_stop = !is_impact(touch->orbit.events[touch->event].kind);
     SpecialKind kind =
@@ -226,6 +205,21 @@ class CurveFollower {
     record_.add(last), record_.end(last, std::string(name_of(kind)));
   }
 
+  /// Friction begins to hold the mass somewhere, or no longer does, or an impact begins or vanishes.
+  void end_in_change(const OrbitEquations& equations, const Walk& walk, const CurvePoint& last_good,
+                     const ChangeOnCurve& change) {
+    special_between(equations, walk, change.at.arclength - walk.here().arclength);
+    const bool of_multiplier = equations.conditions().front().kind == Condition::Kind::multiplier,
+               loses_impact = change.event && is_impact(equations.shape().events[*change.event].kind);
+    const SpecialKind kind = of_multiplier && loses_impact ? SpecialKind::resonant_graze : change.kind;
+    BranchPoint last = point_of(equations, last_good);  // multipliers have no digits where an impact has no speed
+    last.scene = equations.scene_at(change.at.at), last.orbit = point_of(equations, change.at).orbit;
+    BranchPoint special = last;
+    special.orbit = with_impact_at_graze(special.scene, special.orbit, change.event);
+    record_.note(kind, special);
+    record_.add(last), record_.end(last, std::string(name_of(kind)));
+  }
+
   /// The point within a step at which a pair of multipliers with the product 1 becomes real.
   [[nodiscard]] std::optional<BranchPoint> strong_resonance(const OrbitEquations& equations, const Walk& walk,
                                                             double step) const {
@@ -234,7 +228,7 @@ class CurveFollower {
       return housing_characteristic(equations.scene_at(p.at), equations.orbit_at(p.at)).beyond_real();
     };
     const auto zero = walk.zero(beyond_real, step);
-    return zero ? std::optional(record_.point(equations, *zero)) : std::nullopt;
+    return zero ? std::optional(point_of(equations, *zero)) : std::nullopt;
   }
   /// The curve ends in a special point of its own.
   void end_at(SpecialKind kind, const BranchPoint& last) {
@@ -248,7 +242,7 @@ class CurveFollower {
     const auto exact = solved({equations.conditions().front(), {Condition::Kind::duration, 1, contact}},
                               equations.scene_at(near), equations.orbit_at(near));
     if (!exact) return false;
-    BranchPoint last = record_.point(equations, last_good);
+    BranchPoint last = point_of(equations, last_good);
     last.scene = exact->first, last.orbit = with_graze(exact->second, contact);
     record_.note(SpecialKind::graze, last);
     record_.add(last), record_.end(last, "graze");
@@ -261,10 +255,12 @@ class CurveFollower {
   void end_near_graze(const OrbitEquations& equations, const CurvePoint& last_good, std::string_view failure) {
     const auto contact = shortest_contact(equations.orbit_at(last_good.at));
     if (contact && !equations.grazing() && ends_without_contact(equations, last_good, last_good.at, *contact)) return;
-    const BranchPoint last = record_.point(equations, last_good);
+    const BranchPoint last = point_of(equations, last_good);
     if (has_events_at_once(last.orbit)) return end_at(SpecialKind::simultaneous, last);
+    constexpr double vanishes = 1e-3;  // rad
+    if (const auto slip = vanishing_slip(equations, last_good, vanishes)) return end_at(slip->kind, last);
     if (failure == no_graze) record_.add(last);
-    record_.fail(last, failure);
+    record_.fail(last, has_friction(last.scene.friction) && failure == no_graze ? no_halt_change : failure);
   }
 
   /// The solution of an orbit's equations with two conditions near a guess; nothing if there is none near.
@@ -293,7 +289,7 @@ class CurveFollower {
   void note_start_between(const OrbitEquations& equations, const Walk& walk, double step) {
     const double across = value_of(problem_, *settings_.across);
     const auto zero = walk.zero([&](const CurvePoint& p) { return parameter(p.at, across_axis) - across; }, step);
-    if (zero) record_.note(kind_, record_.point(equations, *zero));
+    if (zero) record_.note(kind_, point_of(equations, *zero));
   }
 
   /// Cusps and resonant grazes within a step.
@@ -312,18 +308,19 @@ class CurveFollower {
           [&](const CurvePoint& p) { return p.tangent[last - 1] * here[last - 1] + p.tangent[last] * here[last]; });
       if (turned &&
           std::hypot(turned->tangent[last - 1], turned->tangent[last]) < 1e-5 * std::hypot(here[last - 1], here[last]))
-        record_.note(SpecialKind::cusp, record_.point(equations, *turned));
+        record_.note(SpecialKind::cusp, point_of(equations, *turned));
       return;
     }
     const bool is_of_two_numbers = !has_loose_mass(problem_.loose);  // as the conditions for resonant ones are
-    const bool has_root = is_impact(equations.shape().events[*equations.grazing()].kind);
+    const std::size_t graze = *equations.grazing();
+    const bool has_root = is_impact(with_impact_at_graze(problem_, equations.shape(), graze).events[graze].kind);
     if (!has_root || !is_of_two_numbers) return;
     for (const int periods : {1, 2, 3, 4}) {
       if (periods > 1 && equations.shape().mirrored) break;
       const auto resonant = zero_of([&](const CurvePoint& p) { return resonance(equations, p.at, periods); });
       if (!resonant) continue;
       BranchPoint at = record_.point(equations, *resonant);
-      at.orbit = grazing_once_in(at.orbit, *equations.grazing(), periods);
+      at.orbit = grazing_once_in(at.scene, at.orbit, graze, periods);
       record_.note(SpecialKind::resonant_graze, at);
     }
   }

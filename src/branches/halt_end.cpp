@@ -49,10 +49,17 @@ bool ends_chatter(const Orbit& orbit, std::size_t stick) {
   return impacts >= several;
 }
 
+/// The stop on whose position a mass halts.
+Side stop_at(const FollowedScene& scene, const OrbitEvent& halt) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  const auto off = [&](Side side) { return std::abs(p.middle() + halt.place - p.position(side)); };
+  return off(Side::lower) < off(Side::upper) ? Side::lower : Side::upper;
+}
+
 }  // namespace
 
 std::optional<FrictionEnd> nearest_end(const Equations& builder, const OrbitEquations& walked, const Narrowed& between,
-                                       double within, double tolerance) {
+                                       bool symmetric_scenes, double within, double tolerance) {
   const FollowedScene beyond = walked.scene_at(between.beyond.at);
   if (!has_friction(beyond.friction)) return std::nullopt;
   const std::vector<Violation> violations = slip_violations(beyond, walked.orbit_at(between.beyond.at), {});
@@ -68,7 +75,7 @@ std::optional<FrictionEnd> nearest_end(const Equations& builder, const OrbitEqua
     if (off < least) least = off, nearest = FrictionEnd{*exact, what...};
   };
   for (const HaltChange& change : halt_changes(walked, between, violations))
-    consider(exact_change(builder, beyond, change, within, tolerance), change);
+    consider(exact_change(builder, beyond, change, symmetric_scenes, within, tolerance), change);
   for (const Violation& graze : grazes_of(beyond, walked.shape(), violations)) {
     const Touch touch = touch_of(walked, {between.last_good, between.beyond, graze});
     consider(exact_graze(builder, beyond, touch.graze(), 0.0, false, within, tolerance), std::nullopt, graze);
@@ -89,7 +96,11 @@ void end_in_change(const FrictionEnd& end, const BranchPoint& last_good, Record&
   if (change.opens == Opening::Kind::rebound && ends_chatter(exact.orbit, exact.event) &&
       record.is_of_cascade(last, 1e-4))
     return record.end(last, "chatter limit");
-  const auto [special, is_new] = record.note(change.kind, at, change.condition);
+  Condition condition = change.condition;  // of the motion that repeats sooner, if it does
+  condition.event = exact.event;
+  if (condition.kind == Condition::Kind::on_stop)
+    condition.side = stop_at(exact.scene, exact.orbit.events[exact.event]);
+  const auto [special, is_new] = record.note(change.kind, at, condition);
   record.end(last, std::string(name_of(change.kind)));
   const bool jumps = change.opens == Opening::Kind::rebound && slips_on_from_stop(exact.scene, at.orbit, exact.event);
   const bool passes = change.opens && Opening{*change.opens}.is_of_soft_stop();

@@ -16,7 +16,8 @@ struct FrictionEnd {
 /// the parameter changes by its length at most, so that is the distance. Beside an end without derivatives steps shrink
 /// before they come to it, so 1/100 of the largest one is, too, if the step is shorter.
 [[nodiscard]] std::optional<FrictionEnd> nearest_end(const Equations& builder, const OrbitEquations& walked,
-                                                     const Narrowed& between, double within, double tolerance);
+                                                     const Narrowed& between, bool symmetric_scenes, double within,
+                                                     double tolerance);
 
 /// Ends a branch in a change of its halts, after its last good point; the motion beyond waits.
 void end_in_change(const FrictionEnd& end, const BranchPoint& last_good, Record& record, std::deque<Waiting>& waiting,

@@ -147,7 +147,6 @@ class BranchFriction(BranchRuns):
     def test_it_says_what_cannot_be_followed(self):
         nu = ALONG.format(along="nu", low=1.2, high=1.4)
         for text, words in (
-            (STOPS + nu + 'across = "friction"\ncurve = "fold"\n', "no curve of special points"),
             (STOPS.replace("0.2", "1.6") + nu, "for good"),
             (STOPS.replace("0.2", "0") + ALONG.format(along="friction", low=0, high=0.4), "no dry friction"),
             (STOPS + "friction_static = 0.25\n" + ALONG.format(along="friction", low=0.1, high=0.4), "friction_static"),

@@ -9,6 +9,7 @@ import unittest
 
 from combinations import Campaign, report
 from followed_branches import BranchCampaign
+from followed_curves import CurveCampaign
 from random_scenes import (
     bumping_scenes,
     carrying_scenes,
@@ -57,6 +58,13 @@ class Combinations(unittest.TestCase):
         campaign = BranchCampaign(CLATTER, rubbing_scenes(max(40, COUNT // 10), SEED))
         self.assertEqual(report(campaign.failures), "")
         self.assertGreater(campaign.points, 400)
+
+    def test_branches_under_dry_friction_have_the_special_points_of_curves(self):
+        for scenes in (slipping_scenes, rubbing_scenes):
+            campaign = CurveCampaign(CLATTER, scenes(max(15, COUNT // 20), SEED))
+            self.assertEqual(report(campaign.failures), "")
+            self.assertGreater(campaign.crossings, 5)
+            self.assertLess(campaign.unmet, campaign.crossings / 4)
 
     def test_points_of_branches_with_a_loose_mass_are_motions(self):
         campaign = BranchCampaign(CLATTER, carrying_scenes(max(30, COUNT // 10), SEED))

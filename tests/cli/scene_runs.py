@@ -84,12 +84,13 @@ class Program:
         self.sweep(sweep, range(count), runs, time, observe, *words)
         return runs
 
-    def branch(self, scene, limits):
-        """The arrays of a branch along nu; None if the scene settles on nothing that can be followed."""
+    def branch(self, scene, limits, keys=""):
+        """The arrays of a branch along nu, or of a curve, with further keys of [branch]; None if the scene settles on
+        nothing that can be followed."""
         self.count += 1
         name = self.folder / f"{self.count}.toml"
         values = "".join(f"{key} = {value!r}\n" for key, value in keys_of(scene).items())
-        branch = f'[branch]\nalong = "nu"\nrange = [{limits[0]!r}, {limits[1]!r}]\nmax_points = 400\n'
+        branch = f'[branch]\nalong = "nu"\nrange = [{limits[0]!r}, {limits[1]!r}]\nmax_points = 400\n{keys}'
         observe = "[observe]\nextrema = true\nstability = true\n"
         name.write_text(
             f"[scene]\n{values}[time]\nmax_periods = 600\nmax_impacts = 20000\n{observe}{branch}", encoding="utf-8"

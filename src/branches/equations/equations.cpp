@@ -127,7 +127,9 @@ OrbitEquations::OrbitEquations(const FollowedScene& scene, const Orbit& shape, s
 
 std::optional<std::size_t> OrbitEquations::grazing() const {
   for (const Condition& condition : conditions_)
-    if (condition.kind == Condition::Kind::graze || condition.kind == Condition::Kind::force) return condition.event;
+    if (condition.kind == Condition::Kind::graze || condition.kind == Condition::Kind::force ||
+        (condition.kind == Condition::Kind::on_stop && condition.amount == 0))
+      return condition.event;
   return std::nullopt;
 }
 

@@ -80,7 +80,7 @@ class OrbitEquations {
   [[nodiscard]] bool stiffness_varies() const { return stiffness_varies_; }
   [[nodiscard]] double speed_unit() const { return speed_unit_; }
   [[nodiscard]] const std::vector<Condition>& conditions() const { return conditions_; }
-  /// The event that grazes by a condition, if there is one.
+  /// The event that grazes by a condition, if there is one: a halt on the position of a stop does.
   [[nodiscard]] std::optional<std::size_t> grazing() const;
   /// Whether that event is the touch of a stop without speed.
   [[nodiscard]] bool grazes_outside() const;

@@ -80,7 +80,7 @@ bool Orbit::is_of_free_halts() const {
 
 bool Orbit::changes_nothing(std::size_t i) const {
   const Event::Kind kind = events[i].kind, before = events[(i + size() - 1) % size()].kind;
-  return is_impact(kind) || presses(kind) == presses(before);
+  return is_impact(kind) || (!branches::halts(kind) && presses(kind) == presses(before));
 }
 
 bool Orbit::meets_stops() const { return !std::ranges::all_of(events, &OrbitEvent::is_of_wall); }

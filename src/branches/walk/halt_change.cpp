@@ -216,7 +216,7 @@ std::optional<ExactGraze> solved(const OrbitEquations& there, const FollowedScen
 }  // namespace
 
 std::optional<ExactGraze> exact_change(const Equations& equations, const FollowedScene& near, const HaltChange& change,
-                                       double within, double tolerance) {
+                                       bool symmetric_scenes, double within, double tolerance) {
   const OrbitEquations there = equations(change.orbit, {change.condition});
   if (change.kind == SpecialKind::motion_ceases) return where_motion_ceases(there, near, change.orbit, within);
   const HaltChange once = once_of(change, near);
@@ -224,9 +224,7 @@ std::optional<ExactGraze> exact_change(const Equations& equations, const Followe
   auto exact = repeats ? solved(equations(once.orbit, {once.condition}), near, once, within, tolerance)
                        : solved(there, near, change, within, tolerance);
   if (!exact) return exact;
-  const Parameter along = there.axes().front().parameter;
-  if (exact->orbit.mirrored && !change.orbit.mirrored && !(is_symmetric(near) && keeps_symmetry(near, along)))
-    exact->orbit = exact->orbit.whole();
+  if (exact->orbit.mirrored && !change.orbit.mirrored && !symmetric_scenes) exact->orbit = exact->orbit.whole();
   exact->joins = exact->orbit.half_turns != change.orbit.half_turns;
   return exact;
 }
@@ -244,8 +242,8 @@ Orbit without_short_slips(const FollowedScene& scene, Orbit orbit, double length
 
 }  // namespace
 
-std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at) {
-  constexpr double about_to_vanish = 0.1;  // rad
+std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at,
+                                         double about_to_vanish) {
   const FollowedScene scene = equations.scene_at(at.at);
   const Orbit orbit = equations.orbit_at(at.at);
   if (orbit.size() < 2) return std::nullopt;
@@ -338,9 +336,9 @@ std::vector<HaltChange> halt_changes(const OrbitEquations& equations, const Narr
 }
 
 bool slip_vanishes_beside(const Equations& builder, const OrbitEquations& walked, const CurvePoint& at,
-                          double tolerance) {
+                          bool symmetric_scenes, double tolerance) {
   const auto change = vanishing_slip(walked, at);
-  return change && exact_change(builder, walked.scene_at(at.at), *change, beside_singular, tolerance);
+  return change && exact_change(builder, walked.scene_at(at.at), *change, symmetric_scenes, beside_singular, tolerance);
 }
 
 }  // namespace clatter::branches

@@ -23,9 +23,10 @@ struct HaltChange {
   std::optional<HaltForm> before{}, beyond{};  ///< of that halt; nothing: the motion isn't one of these
   std::optional<Opening::Kind> opens{};        ///< what begins from nothing beyond
 };
-/// The change at which the shortest slip to a halt vanishes, if it is about to: its beginning and the halt become one
-/// stick.
-[[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at);
+/// The change at which the shortest slip to a halt vanishes, if it is about to, being shorter than some of the forcing
+/// phase, rad: its beginning and the halt become one stick.
+[[nodiscard]] std::optional<HaltChange> vanishing_slip(const OrbitEquations& equations, const CurvePoint& at,
+                                                       double about_to_vanish = 0.1);
 
 /// Whether a reversal on a stop, as an impact there loses its speed, is none: the static level of friction, which is
 /// above the kinetic one, holds the mass. Motion jumps there.
@@ -40,13 +41,14 @@ struct HaltChange {
                                                    const std::vector<Violation>& violations);
 
 /// The scene and the motion of a change within a distance of the parameter, over the width of its range; nothing if
-/// there is none.
+/// there is none. Motion that is its own mirror image there is kept as a half if all scenes that follow are symmetric.
 [[nodiscard]] std::optional<ExactGraze> exact_change(const Equations& equations, const FollowedScene& near,
-                                                     const HaltChange& change, double within, double tolerance);
+                                                     const HaltChange& change, bool symmetric_scenes, double within,
+                                                     double tolerance);
 
 /// Whether a slip is about to vanish so near that the parameter has no digits between there and here: then it may turn,
 /// and measures with it, by rounding alone.
 [[nodiscard]] bool slip_vanishes_beside(const Equations& builder, const OrbitEquations& walked, const CurvePoint& at,
-                                        double tolerance);
+                                        bool symmetric_scenes, double tolerance);
 
 }  // namespace clatter::branches

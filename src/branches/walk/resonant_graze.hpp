@@ -9,6 +9,6 @@ namespace clatter::branches {
 [[nodiscard]] double resonance(const OrbitEquations& equations, const Vector& at, int n);
 
 /// A motion over n periods, with its graze in the first of them alone.
-[[nodiscard]] Orbit grazing_once_in(const Orbit& orbit, std::size_t graze, int n);
+[[nodiscard]] Orbit grazing_once_in(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, int n);
 
 }  // namespace clatter::branches

@@ -26,11 +26,11 @@ bool slips_for_less(const Flights<double, E>& flights, const Orbit& orbit, doubl
 
 /// Whether friction holds a mass where an orbit says so, and lets it go where it says so.
 template <Effects E>
-std::optional<Violation> at_halt(const Flights<double, E>& flights, const Orbit& orbit, std::size_t i) {
+std::optional<Violation> at_halt(const Flights<double, E>& flights, const Orbit& orbit, std::size_t i, bool grazes) {
   using enum Violation::Kind;
   const OrbitEvent& halt = orbit.events[i];
   const Standing<double> at = standing_at(halt);
-  if (flights.soft_stop_around(at.place) != at.held_by) return Violation{pulls, i, {}};
+  if (!grazes && flights.soft_stop_around(at.place) != at.held_by) return Violation{pulls, i, {}};
   const auto holds = [&](Side side) { return flights.left_to_level(at, side) >= 0; };
   const auto release = [&](Side side) { return flights.hold(at, side); };
   const Side before = orbit.heading_before(i), other = opposite(halt.side);
@@ -65,9 +65,11 @@ std::size_t margin_at(Event::Kind kind) {
 }
 
 /// Whether a flight meets the stop ahead, or halts, or the force of a soft stop falls to 0 or rises from it, at its end
-/// and not before.
+/// and not before. One that ends in a halt on the position of a stop, a graze, comes to that all the way: it does if
+/// its velocity keeps its sign.
 template <Effects E>
-std::optional<Violation> in_flight(const Flights<double, E>& flights, const Orbit& orbit, std::size_t i) {
+std::optional<Violation> in_flight(const Flights<double, E>& flights, const Orbit& orbit, std::size_t i,
+                                   std::optional<std::size_t> grazing = {}) {
   const Flight<double> flight = detail::flight_of<double>(orbit, i);
   const SceneNumbers<double>& p = flights.parameters();
   const Side ahead = flight.heading();
@@ -77,12 +79,15 @@ std::optional<Violation> in_flight(const Flights<double, E>& flights, const Orbi
   if (flight.arrives == Event::Kind::stick && !is_of_soft_stop(flight.leaves) && length * nu < shortest)
     return Violation{Violation::Kind::vanishes, i, {}};
   return flights.with_arc(flight, [&](const auto& arc) -> std::optional<Violation> {
-    const std::array<Margin, 3> margins = margins_of(p, arc, flight);
+    std::array<Margin, 3> margins = margins_of(p, arc, flight);
+    const bool grazes = (i + 1) % orbit.size() == grazing && halts(flight.arrives);
+    if (grazes) margins[0] = {1.0, 0.0, 0.0};
+    if (grazes && flight.pressed() != Side::none) margins[2] = {1.0, 0.0, 0.0};
     const auto crossing = motion::first_crossing(arc, margins, length);
     const motion::Motion<double>& m = crossing.motion;
     if (crossing.resolved && crossing.margin == margins.size()) return std::nullopt;
     const bool meets = crossing.margin == 0, stands = !meets && crossing.margin != 2;
-    if (crossing.resolved && crossing.margin == margin_at(flight.arrives) &&
+    if (crossing.resolved && (grazes || crossing.margin == margin_at(flight.arrives)) &&
         is_at_end(crossing.elapsed, length, stands ? m.v : m.x, stands ? m.a : m.v, nu))
       return std::nullopt;
     if (meets) return Violation{Violation::Kind::passes_through, i, {ahead, flight.end, 0.0}};
@@ -129,12 +134,12 @@ std::vector<Violation> slip_violations(const FollowedScene& scene, const Orbit& 
     if (ceases(flights, orbit)) found.push_back({Violation::Kind::ceases, 0, {}});
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const OrbitEvent& event = orbit.events[i];
-      if (i == grazing) continue;
-      if (!halts(event.kind) && !(sign_of(event.side) * (event.is_contact() ? event.before : -event.before) > 0))
+      if (halts(event.kind)) add(at_halt(flights, orbit, i, i == grazing));
+      if (i == grazing || halts(event.kind)) continue;
+      if (!(sign_of(event.side) * (event.is_contact() ? event.before : -event.before) > 0))
         add(Violation{Violation::Kind::pulls, i, {}});
-      if (halts(event.kind)) add(at_halt(flights, orbit, i));
     }
-    for (std::size_t i = 0; i < orbit.size(); ++i) add(in_flight(flights, orbit, i));
+    for (std::size_t i = 0; i < orbit.size(); ++i) add(in_flight(flights, orbit, i, grazing));
   });
   return found;
 }

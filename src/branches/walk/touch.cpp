@@ -89,4 +89,13 @@ Orbit halting_at_stop(const FollowedScene& scene, Orbit orbit, std::size_t event
   return orbit;
 }
 
+Orbit with_impact_at_graze(const FollowedScene& scene, const Orbit& orbit, std::optional<std::size_t> graze) {
+  if (!graze || orbit.events[*graze].kind != Event::Kind::reversal) return orbit;
+  const Side stop = orbit.heading_before(*graze);
+  if (is_soft(scene.stops, stop)) return orbit;
+  Orbit with = orbit;
+  with.events[*graze] = {stop, orbit.events[*graze].phase};
+  return with;
+}
+
 }  // namespace clatter::branches

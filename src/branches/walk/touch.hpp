@@ -42,6 +42,11 @@ struct Touch {
 /// The graze within a step of a walk; nothing if motion between the stops can be followed as far as that.
 [[nodiscard]] std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& walk, double step);
 
+/// Motion under dry friction that halts on the position of a rigid stop and turns there, with the impact that is about
+/// to begin there; any other motion as it is.
+[[nodiscard]] Orbit with_impact_at_graze(const FollowedScene& scene, const Orbit& orbit,
+                                         std::optional<std::size_t> graze);
+
 /// The motion that halts in place of an impact without speed.
 [[nodiscard]] Orbit halting_at_stop(const FollowedScene& scene, Orbit orbit, std::size_t event);
 
