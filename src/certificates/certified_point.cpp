@@ -205,10 +205,6 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
   CertifiedPoint point{.status = known.status};
   if (known.status == Status::grazing) point.without = Without::graze;
   if (known.status != Status::periodic && known.status != Status::transient) return point;
-  if (has_loose_friction(problem.loose)) {
-    point.without = Without::loose_friction;
-    return point;
-  }
   const bool is_steady = known.status == Status::periodic;
   if (is_steady && problem.oscillator.forcing == 0) {
     point.without = Without::force;
