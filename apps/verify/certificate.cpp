@@ -22,6 +22,18 @@ std::optional<Certificate::StopNumbers> stop_of(const Field& scene, const char* 
   return stop;
 }
 
+/// The levels of dry friction of a scene, or of its loose mass.
+template <class Numbers>
+void read_friction(const Field& field, Numbers& numbers) {
+  if (const auto friction = field.find("friction")) numbers.friction = friction->number_from(0, Field::infinity);
+  numbers.friction_static = numbers.friction;
+  const auto level = field.find("friction_static");
+  if (!level) return;
+  numbers.friction_static = level->number_from(0, Field::infinity);
+  if (numbers.friction_static < numbers.friction)
+    level->refuse("is below friction", "give the same or more, or leave it out");
+}
+
 /// A loose mass and the walls of its housing.
 Certificate::LooseNumbers loose_of(const Field& field) {
   Certificate::LooseNumbers loose{
@@ -38,6 +50,7 @@ Certificate::LooseNumbers loose_of(const Field& field) {
   }
   const auto& [lower, upper] = loose.walls;
   if (!lower && !upper) field.refuse("has no walls", "give lower, upper or both");
+  read_friction(field, loose);
   if (lower && upper && !(*lower < *upper)) field.refuse("has its lower wall above the upper one", "exchange them");
   return loose;
 }
@@ -47,13 +60,7 @@ Certificate::SceneNumbers scene_of(const Field& field) {
       field.get("h").number_from(0, Field::infinity),         field.get("k").number(),    field.get("f").number(),
       field.get("nu").number_from(0, Field::infinity, false), field.get("load").number(), field.get("phase").number(),
       {stop_of(field, "lower"), stop_of(field, "upper")}};
-  if (const auto friction = field.find("friction")) scene.friction = friction->number_from(0, Field::infinity);
-  scene.friction_static = scene.friction;
-  if (const auto level = field.find("friction_static")) {
-    scene.friction_static = level->number_from(0, Field::infinity);
-    if (scene.friction_static < scene.friction)
-      level->refuse("is below friction", "give the same or more, or leave it out");
-  }
+  read_friction(field, scene);
   if (scene.stops[0] && scene.stops[1] && !(scene.stops[0]->position < scene.stops[1]->position))
     field.refuse("has its lower stop above the upper one", "exchange them");
   if (const auto loose = field.find("loose")) scene.loose = loose_of(*loose);
@@ -67,15 +74,16 @@ ClaimedEvent event_of(const Field& field, const Certificate::SceneNumbers& scene
   const std::string name = kind.text();
   bool known = false;
   for (const Kind one : {Kind::impact, Kind::touch, Kind::separation, Kind::renewal, Kind::graze, Kind::chatter,
-                         Kind::rest, Kind::reversal, Kind::stick, Kind::press})
+                         Kind::rest, Kind::reversal, Kind::stick, Kind::press, Kind::turn, Kind::hold})
     if (name == name_of(one)) event.kind = one, known = true;
   if (!known)
     kind.refuse("is " + shown(name),
-                "write impact, touch, separation, renewal, graze, chatter, rest, reversal, stick or press");
+                "write impact, touch, separation, renewal, graze, chatter, rest, reversal, stick, press, turn or hold");
   event.time = field.get("time").claimed();
   if (is_of_friction(event.kind)) {
-    event.x = field.get("x").claimed();
-    if (event.kind == Kind::stick) event.until = field.get("until").claimed();
+    event.of_wall = event.kind == Kind::turn || event.kind == Kind::hold;
+    event.x = field.get(event.of_wall ? "z" : "x").claimed();
+    if (lasts(event.kind)) event.until = field.get("until").claimed();
     return event;
   }
   const auto wall = scene.loose && scene.has_stops() ? field.find("wall") : std::nullopt;
@@ -90,9 +98,13 @@ ClaimedEvent event_of(const Field& field, const Certificate::SceneNumbers& scene
 
 /// An event of a loose mass must be one on a wall that there is.
 void require_wall(const Field& field, const Certificate::SceneNumbers& scene, const ClaimedEvent& event) {
+  if (is_of_friction(event.kind)) {
+    if (scene.loose && scene.loose->friction_static != Number()) return;
+    field.refuse("is an event of dry friction in a housing", "the scene has none; give scene.loose its friction");
+  }
   if (event.kind != Kind::impact && event.kind != Kind::chatter && event.kind != Kind::press)
     field.refuse(std::string("is a ") + name_of(event.kind) + " beside a loose mass",
-                 "write impact, chatter or press of a wall");
+                 "write impact, chatter or press of a wall, turn or hold");
   if (!scene.loose->walls[index_of(event.side)]) field.refuse("is an event of a wall", "the housing has none there");
 }
 

@@ -50,8 +50,8 @@ struct ClaimedEvent {
   Kind kind = Kind::impact;
   Side side = Side::lower;
   Claimed time, v;               ///< v: not of graze, chatter, rest and press; of a loose mass z'
-  std::optional<Claimed> until;  ///< of chatter, rest, stick and press
-  std::optional<Claimed> x{};    ///< of reversal and stick
+  std::optional<Claimed> until;  ///< of chatter, rest, stick, press and hold
+  std::optional<Claimed> x{};    ///< of reversal and stick; of turn and hold z
   bool of_wall = false;          ///< of the housing of a loose mass
 };
 
@@ -74,6 +74,7 @@ struct Certificate {
     std::array<Number, 2> R;  ///< [wall]
     Number load;
     std::array<std::optional<Number>, 2> walls;
+    Number friction{}, friction_static{};
   };
   struct SceneNumbers {
     Number h, k, f, nu, load, phase;

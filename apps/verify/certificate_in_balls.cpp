@@ -69,6 +69,8 @@ Scene Certificate::scene_in_balls() const {
   if (!scene.loose) return made;
   const auto& R = scene.loose->R;
   LooseMass loose{scene.loose->mass.ball(), {R[0].ball(), R[1].ball()}, scene.loose->load.ball(), {}};
+  loose.friction = scene.loose->friction.ball(), loose.friction_static = scene.loose->friction_static.ball();
+  loose.is_let_go_gently = scene.loose->friction == scene.loose->friction_static;
   for (std::size_t i = 0; i < 2; ++i)
     if (scene.loose->walls[i]) loose.walls[i] = scene.loose->walls[i]->ball();
   made.loose = loose;

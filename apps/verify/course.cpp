@@ -94,7 +94,9 @@ void Course::run() {
   if (ends_with_release()) return;
   if (motion_.is_resting() && !motion_.is_at_end())
     throw Refuted(motion_.pressed_by() ? "after the last event: a wall presses the loose mass, and no press is claimed"
-                                       : "after the last event: a stop holds the mass, and no rest is claimed");
+                  : motion_.is_carrying()
+                      ? "after the last event: friction holds the loose mass, and no hold is claimed"
+                      : "after the last event: a stop holds the mass, and no rest is claimed");
   const Event event = next_event(nullptr);
   if (event.kind != Kind::end) throw Refuted("after the last event: nothing is claimed, found " + found_text(event));
 }
@@ -111,10 +113,10 @@ void compare_events(const Certificate& certificate, const std::vector<Event>& ev
     const ClaimedEvent& claim = certificate.events[i];
     const std::string name = named(i, claim);
     report.compare(name + ", time", events[i].time, claim.time);
-    if (claim.x) report.compare(name + ", x", events[i].x, *claim.x);
+    if (claim.x) report.compare(name + (claim.of_wall ? ", z" : ", x"), events[i].x, *claim.x);
     if (claim.until)
       report.compare(name + ", until", events[i].until, *claim.until);
-    else if (claim.kind != Kind::graze && claim.kind != Kind::reversal)
+    else if (claim.kind != Kind::graze && !is_of_friction(claim.kind))
       report.compare(name + (claim.of_wall ? ", w" : ", v"), events[i].v, claim.v);
   }
 }

@@ -63,7 +63,8 @@ bool Cycle::differs(const std::vector<Event>& events, std::size_t shift, const B
 bool Cycle::is_held_throughout() const {
   if (events_.size() != 1) return false;
   const Event& only = events_.front();
-  return (holds(only.kind) || only.kind == Kind::stick) && !(only.until - only.time < period_);
+  return (holds(only.kind) || only.kind == Kind::stick || only.kind == Kind::hold) &&
+         !(only.until - only.time < period_);
 }
 
 bool Cycle::differs_after(std::size_t parts) const {

@@ -22,6 +22,10 @@ const char* name_of(Kind kind) {
       return "reversal";
     case Kind::stick:
       return "stick";
+    case Kind::turn:
+      return "turn";
+    case Kind::hold:
+      return "hold";
     case Kind::press:
       return "press";
     default:

@@ -6,7 +6,22 @@
 
 namespace verify {
 
-enum class Kind { impact, touch, separation, renewal, graze, reversal, chatter, rest, stick, press, release, end };
+enum class Kind {
+  impact,
+  touch,
+  separation,
+  renewal,
+  graze,
+  reversal,
+  chatter,
+  rest,
+  stick,
+  press,
+  turn,
+  hold,
+  release,
+  end
+};
 
 [[nodiscard]] const char* name_of(Kind kind);
 
@@ -20,18 +35,23 @@ struct Event {
   Kind kind = Kind::end;
   Side side = Side::lower;
   Ball time, v;  ///< v: before an impact; of one on a wall of a loose mass z'
-  Ball until;    ///< of a chatter, a rest, a stick or a press
+  Ball until;    ///< of a chatter, a rest, a stick, a press or a hold
   Ball gap{};    ///< of a graze: the least that is left to the stop, or of its force; below 0 the motion passes through
   Slopes slopes{};
-  Ball x{};              ///< of a reversal or a stick: the place
+  Ball x{};              ///< of a reversal or a stick: the place; of a turn or a hold z
   bool of_wall = false;  ///< of a loose mass
 };
 
 /// Whether a stop holds the mass, or a wall the loose mass.
 [[nodiscard]] inline bool holds(Kind kind) { return kind == Kind::rest || kind == Kind::press; }
 /// Whether an event has an end of its own, `until`.
-[[nodiscard]] inline bool lasts(Kind kind) { return holds(kind) || kind == Kind::chatter || kind == Kind::stick; }
-[[nodiscard]] inline bool is_of_friction(Kind kind) { return kind == Kind::reversal || kind == Kind::stick; }
+[[nodiscard]] inline bool lasts(Kind kind) {
+  return holds(kind) || kind == Kind::chatter || kind == Kind::stick || kind == Kind::hold;
+}
+/// Whether friction alone turns or holds the main mass, or the loose one in its housing.
+[[nodiscard]] inline bool is_of_friction(Kind kind) {
+  return kind == Kind::reversal || kind == Kind::stick || kind == Kind::turn || kind == Kind::hold;
+}
 
 /// The state that a motion starts from.
 struct Start {

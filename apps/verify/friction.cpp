@@ -62,7 +62,7 @@ Event Motion::stop_moving(const Ball& end) {
   heading_ = way, still_for_ = 1;
   Event event{Kind::reversal, Side::lower, hull[1], Ball(0), Ball(0)};
   event.x = hull[0];
-  if (pressed_) press_on(event);
+  if (pressed_) press_on();
   return event;
 }
 
@@ -122,7 +122,7 @@ void Motion::move_to_release(const Release& all) {
   for (std::size_t i = 2; i < 4; ++i) derivative[i][0] = derivative[i][0] + rates[i] * all.slope;
   there[1] = of_centre->time, derivative[1] = {{all.slope, Ball(0), Ball(0), Ball(0)}};
   set_.move(there, derivative);
-  surface_ = 1, loose_vanishing_ = 0;
+  surface_ = 1, loose_vanishing_ = loose_still_for_ = 0;
 }
 
 /// What a slip must stay clear of: the stop ahead, or the end of its contact with a soft one, and standstill.

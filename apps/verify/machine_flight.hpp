@@ -13,6 +13,7 @@ enum class Of { main, loose };
 /// The quantities of both masses at an instant, with their derivatives.
 struct Moment {
   Flow::Instant main, loose;
+  Ball held_at{};  ///< z of a loose mass that moves with the main one
 
   [[nodiscard]] const Flow::Instant& of(Of which) const { return which == Of::main ? main : loose; }
 };
@@ -28,21 +29,21 @@ class MachineFlight {
     flight.loose_ = Loose{load, main.at(Ball(0)), z, w};
     return flight;
   }
-  /// Both masses as one, `main`, press the loose one with the acceleration load - x'': on the upper wall if it is
-  /// positive, on the lower one if it is negative.
-  [[nodiscard]] static MachineFlight pressed(const Flow::Flight& main, const Ball& load) {
+  /// Both masses as one, `main`, hold the loose one at z with the acceleration load - x'' beside it: it presses on the
+  /// upper wall if that is positive, on the lower one if it is negative.
+  [[nodiscard]] static MachineFlight pressed(const Flow::Flight& main, const Ball& z, const Ball& load) {
     MachineFlight flight(main);
-    flight.pressed_by_ = load;
+    flight.held_ = Held{load, z};
     return flight;
   }
 
   [[nodiscard]] const Flow::Flight& main() const { return main_; }
   [[nodiscard]] Moment at(const Ball& s) const {
     const Flow::Instant main = main_.at(s);
-    if (loose_) return {main, in_housing(s, main)};
-    if (!pressed_by_) return {main, {}};
+    if (loose_) return {main, in_housing(s, main), {}};
+    if (!held_) return {main, {}, {}};
     const auto [d5, d6] = main_.further(s, main);
-    return {main, {*pressed_by_ - main.a, -main.j, -main.d4, -d5, -d6}};
+    return {main, {held_->load - main.a, -main.j, -main.d4, -d5, -d6}, held_->z};
   }
 
  private:
@@ -50,6 +51,9 @@ class MachineFlight {
     Ball load;
     Flow::Instant start;  ///< of the main mass
     Ball z, w;
+  };
+  struct Held {
+    Ball load, z;
   };
 
   [[nodiscard]] Flow::Instant in_housing(const Ball& s, const Flow::Instant& main) const {
@@ -68,7 +72,7 @@ class MachineFlight {
 
   Flow::Flight main_;
   std::optional<Loose> loose_{};
-  std::optional<Ball> pressed_by_{};
+  std::optional<Held> held_{};
 };
 
 }  // namespace verify

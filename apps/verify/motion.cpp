@@ -40,7 +40,15 @@ Flow still_flow(Scene scene) {
 }  // namespace
 
 Motion::Flows::Flows(const Scene& scene) : alone(flows_of(scene)), held(still_flow(scene)) {
-  if (scene.loose) both = both_of(scene), as_one = flows_of(*both);
+  if (!scene.loose) return;
+  both = both_of(scene), as_one = flows_of(*both);
+  if (!scene.loose->is_rough()) return;
+  alone.clear();
+  for (const int way : {-1, 1}) {
+    Scene& beside = drawn.emplace_back(scene);
+    beside.load = scene.load + Ball(way) * scene.loose->friction;
+    for (Flow& flow : flows_of(beside)) alone.push_back(std::move(flow));
+  }
 }
 
 Motion::Motion(const Scene& scene, const Start& start, const Four& width)
@@ -65,10 +73,17 @@ void Motion::begin_at(const Start& start, const Four& width) {
     wall_ = *start.pressed, pressed_ = true, press_begin_ = start.time;
   }
   set_ = MovingSet(from, apart), time_ = start.time;
+  if (rubs() && !pressed_) {
+    const Ball v = set_.hull()[1], w = set_.hull()[3];
+    if (w.is_positive() || w.is_negative())
+      slide_ = w.is_positive() ? 1 : -1;
+    else if (!w.is_zero() || (scene_.is_rough() && !v.is_positive() && !v.is_negative()))
+      throw Undecided("whether friction holds a mass at the start");
+  }
   start_on_stop(start);
   if (scene_.is_rough()) begin_rough(start);
-  if (pressed_ && (resting_ || sticks_)) throw Undecided("a start at which both masses are held");
   if (scene_.loose && !pressed_) start_in_housing();
+  if (pressed_ && (resting_ || sticks_)) throw Undecided("a start at which both masses are held");
 }
 
 /// The mode of a state at a stop's position or beyond it.
@@ -91,8 +106,9 @@ void Motion::start_on_stop(const Start& start) {
       return;
     }
     if (hull[1].is_zero()) {
-      if (pressed_) throw Undecided("a start on a stop while a wall presses the loose mass");
-      const Ball push = scene_.pressing(side, sin_cos(scene_.nu * start.time + scene_.phase).first);
+      if (pressed_ || (rubs() && slide_ == 0))
+        throw Undecided("a start on a stop while something holds the loose mass");
+      const Ball push = acting().pressing(side, sin_cos(scene_.nu * start.time + scene_.phase).first);
       const Ball press = stop.soft ? push : push + scene_.friction_static;
       if (press.is_negative()) return begin(Mode::free, side, 2);
       if (!press.is_positive()) throw Undecided("whether a stop holds the mass at the start");
@@ -120,11 +136,7 @@ std::vector<Margin> Motion::margins() const {
     if (beyond) list.push_back({sign_of(side_), stop.position, Ball(0), 0});
     list.push_back({(beyond ? -1 : 1) * sign_of(side_), stop.position, stop.q(), vanishing_});
   }
-  if (pressed_) list.push_back({sign_of(wall_), Ball(0), Ball(0), 0, false, Of::loose});
-  for (const Side side : {Side::lower, Side::upper})
-    if (scene_.loose && !pressed_ && scene_.loose->walls[index_of(side)])
-      list.push_back(
-          {-sign_of(side), scene_.loose->wall(side), Ball(0), side == wall_ ? loose_vanishing_ : 0, false, Of::loose});
+  add_loose_margins(list);
   return list;
 }
 
@@ -149,7 +161,7 @@ Event Motion::fly(const Ball& end) {
     if (instant < horizon) {
       stretches_.push_back({all.main(), instant});
       move_to_surface(all, margin, instant);
-      if (margin.of_velocity) return stop_moving(end);
+      if (margin.of_velocity) return margin.which == Of::loose ? stop_in_housing(end) : stop_moving(end);
       const Event event = pass(crossing->margin, margin);
       return event.kind == Kind::end ? fly(end) : event;  // leaving the region beyond a stop is no event
     }
@@ -216,7 +228,7 @@ Event Motion::hit_at_start() {
   surface_ = *std::exchange(hits_at_start_, std::nullopt);
   before[*surface_] = time_.value;
   set_ = MovingSet(before, Four::zero());  // as after any impact, from which a chatter may go on
-  still_for_ = 0;
+  still_for_ = loose_still_for_ = 0;
   if (*surface_ == 2) return strike(wall_);
   const Stop& stop = scene_.stop(side_);
   heading_ = scene_.is_rough() ? sign_of(side_) : 0;

@@ -47,9 +47,14 @@ class Motion {
   [[nodiscard]] bool is_within_stop() const { return mode_ == Mode::contact; }  ///< a soft one
   [[nodiscard]] bool has_loose_mass() const { return scene_.loose.has_value(); }
   /// The wall that presses a loose mass.
-  [[nodiscard]] std::optional<Side> pressed_by() const { return pressed_ ? std::optional(wall_) : std::nullopt; }
-  /// The acceleration z'' with which the loose mass is driven into the wall that it is on.
-  [[nodiscard]] Ball pressing() const;
+  [[nodiscard]] std::optional<Side> pressed_by() const {
+    return pressed_ && on_wall_ ? std::optional(wall_) : std::nullopt;
+  }
+  /// Whether a wall, or friction, makes the loose mass move with the main one.
+  [[nodiscard]] bool is_carrying() const { return pressed_; }
+  /// How much the wall that the loose mass is on can press with, and hold by friction, until it would have to pull, as
+  /// an acceleration.
+  [[nodiscard]] Ball pressing() const { return hold_left(sign_of(wall_)); }
 
   [[nodiscard]] Four state() const { return set_.hull(); }                   ///< at the end
   [[nodiscard]] Four centre() const { return set_.image_of_centre(); }       ///< at the end, of the middle one
@@ -66,7 +71,7 @@ class Motion {
   /// The oscillator of the present mode, and what its motion must stay clear of until the next event.
   [[nodiscard]] const Flow& flow() const {
     if (resting_ || sticks_) return flows_->held;
-    return (pressed_ ? flows_->as_one : flows_->alone)[number_of_flow()];
+    return pressed_ ? flows_->as_one[number_of_flow()] : alone();
   }
   [[nodiscard]] std::vector<Margin> margins() const;
 
@@ -77,9 +82,11 @@ class Motion {
     Four y;  ///< x, x', z, z'
   };
   /// Free, in contact with the lower stop, with the upper one; with friction of slips down, then the same of slips up.
+  /// Those of the main mass alone are then given for slides of the loose one down, and for slides up.
   struct Flows {
     explicit Flows(const Scene& scene);
     std::optional<Scene> both{};  ///< of both masses as one, while a wall presses the loose one (eq. 71)
+    std::vector<Scene> drawn{};   ///< beside a loose mass that slides down, or up: its friction is a load (eq. 80)
     std::vector<Flow> alone, as_one;
     Flow held;  ///< of a main mass that stays where it is
   };
@@ -97,7 +104,15 @@ class Motion {
   [[nodiscard]] std::size_t number_of_flow() const {
     return (mode_ == Mode::contact ? 1 + index_of(side_) : 0) + (heading_ > 0 ? 3 : 0);
   }
-  [[nodiscard]] const Scene& acting() const { return pressed_ ? *flows_->both : scene_; }
+  [[nodiscard]] const Flow& alone() const {
+    return flows_->alone[number_of_flow() + (slide_ > 0 ? flows_->alone.size() / 2 : 0)];
+  }
+  [[nodiscard]] const Scene& acting() const {
+    return pressed_ ? *flows_->both : slide_ != 0 ? flows_->drawn[slide_ > 0 ? 1 : 0] : scene_;
+  }
+  /// Whether a loose mass rubs on its housing.
+  [[nodiscard]] bool rubs() const { return scene_.loose && scene_.loose->is_rough(); }
+  [[nodiscard]] Ball loose_load() const;
   void begin_at(const Start& start, const Four& width);
   void start_on_stop(const Start& start);
   void start_in_housing();
@@ -148,9 +163,15 @@ class Motion {
 
   // Of the loose one: press.cpp.
   Event strike(Side side);
+  void add_loose_margins(std::vector<Margin>& list) const;
+  [[nodiscard]] Ball hold_left(int sign) const;
+  [[nodiscard]] int way_in_housing() const;
+  void slide_to(int way, int wall_vanishing, int still_for);
   void press_or_leave();
-  void press_on(const Event& event);
-  Event let_go();
+  void press_on();
+  void shake(const Event& event);
+  Event stop_in_housing(const Ball& end);
+  Event let_go(int sign);
   Event finish_chatter_in_housing(const ChatterAim& aim);
   void press_at_last(const Rebounds& left);
   Event finish_press(const Ball& end);
@@ -160,7 +181,7 @@ class Motion {
   std::shared_ptr<const Flows> flows_;
   std::shared_ptr<const std::vector<BasicFlow<Dual>>> moving_flows_;  ///< likewise, of a family
   MovingSet set_;  ///< in (x, x', z, z') at `time_`, or before the event on a surface with the time in place of one
-  std::optional<std::size_t> surface_{};  ///< which: 0: x + q x' = place, 1: x' = 0, 2: z is that of a wall
+  std::optional<std::size_t> surface_{};  ///< which: 0: x + q x' = place, 1: x' = 0, 2: z is that of a wall, 3: z' = 0
   Dual time_, place_, q_;
   Dual factor_{1};          ///< after the event x' is multiplied by it, while y' goes on;
   Ball kick_{0}, turn_{1};  ///< or x' grows by kick z', and z' is multiplied by turn
@@ -173,7 +194,10 @@ class Motion {
   bool resting_ = false;                        ///< a stop does
   Side wall_ = Side::lower;                     ///< that the loose mass has struck, or that presses it
   int loose_vanishing_ = 0;                     ///< `Margin::vanishing` of that wall
-  bool pressed_ = false;                        ///< it does
+  bool pressed_ = false;                        ///< it does, or friction holds the loose mass: both move as one
+  bool on_wall_ = true;                         ///< of a pressed one; else friction alone holds it
+  int slide_ = 0;                               ///< with friction in the housing: the sign of z'
+  int loose_still_for_ = 0;                     ///< `Margin::vanishing` of z'
   std::optional<std::size_t> hits_at_start_{};  ///< what the start moves into: a stop, 0, or a wall, 2
   std::optional<Event> due_{};                  ///< the event that ended a press
   Ball rest_begin_, press_begin_, start_time_;

@@ -44,9 +44,10 @@ class Motion::ChatterInHousing {
 Motion::ChatterInHousing::ChatterInHousing(const Motion& motion)
     : loose_(*motion.scene_.loose), side_(motion.wall_), R_(loose_.restitution(side_)) {
   const Scene& scene = motion.scene_;
+  if (loose_.is_rough()) throw Undecided("a chatter on a wall under friction in the housing");
   const Flow &alone = motion.flow(), &both = motion.flows_->as_one[motion.number_of_flow()];
   const Four before = motion.set_.hull();
-  time_ = before[2], w_ = abs(motion.turn_ * before[3]), now_ = motion.pressing();
+  time_ = before[2], w_ = abs(motion.turn_ * before[3]), now_ = (Ball(1) + loose_.mass) * motion.pressing();
   h_ = alone.damping(), k_ = alone.stiffness(), q_ = loose_.share() / (Ball(1) + loose_.mass);
   if (!now_.is_positive() || !(R_ < Ball(1))) throw Undecided("whether a chatter ends");
   longest_ = (Ball(4) * w_ / (now_ * (Ball(1) - R_))).upper();
@@ -186,33 +187,84 @@ void Motion::press_at_last(const Rebounds& left) {
 }
 
 Event Motion::finish_press(const Ball& end) {
-  Event press{Kind::press, wall_, press_begin_, Ball(0), end};
-  press.of_wall = true;
-  if (!(end - state_of(set_.hull()).time).is_positive() || !pressing().is_positive())
-    throw Undecided("whether a wall presses the loose mass");
+  const State state = state_of(set_.hull());
+  Event press{on_wall_ ? Kind::press : Kind::hold, on_wall_ ? wall_ : Side::lower, press_begin_, Ball(0), end};
+  press.of_wall = true, press.x = state.y[2];
+  if (!(end - state.time).is_positive()) throw Undecided("whether a wall presses the loose mass");
+  for (const int sign : {-1, 1})
+    if ((!on_wall_ || sign == sign_of(wall_)) && !hold_left(sign).is_positive())
+      throw Undecided("whether a wall presses the loose mass, or friction holds it");
   const Event after = fly(end);
   if (after.kind != Kind::end) press.until = after.time;
   if (after.kind != Kind::end && after.kind != Kind::release) due_ = after;
   return press;
 }
 
-Ball Motion::pressing() const {
-  const State state = state_of(set_.hull());
-  const Flow& alone = flows_->alone[number_of_flow()];
-  const Ball a = Flow::Flight(alone, state.time, state.y[0], state.y[1]).at(Ball(0)).a;
-  return Ball(sign_of(wall_)) * (scene_.loose->load - a);
+/// y'' of a loose mass between the walls (eq. 80).
+Ball Motion::loose_load() const {
+  const LooseMass& loose = *scene_.loose;
+  return slide_ == 0 ? loose.load : loose.load - Ball(slide_) * loose.friction / loose.mass;
 }
 
-/// A loose mass on a wall with z' = 0.
+/// How much force against leaving to one side is left, as an acceleration of the loose mass, while both move as one
+/// (eqs. 72 and 81).
+Ball Motion::hold_left(int sign) const {
+  const State state = state_of(set_.hull());
+  const LooseMass& loose = *scene_.loose;
+  const Ball a = Flow::Flight(flows_->as_one[number_of_flow()], state.time, state.y[0], state.y[1]).at(Ball(0)).a;
+  return Ball(sign) * (loose.load - a) + loose.friction_static / loose.mass;
+}
+
+void Motion::add_loose_margins(std::vector<Margin>& list) const {
+  if (!scene_.loose) return;
+  const LooseMass& loose = *scene_.loose;
+  for (const Side side : {Side::lower, Side::upper}) {
+    const int sign = sign_of(side);
+    if (pressed_ && (!on_wall_ || side == wall_))
+      list.push_back({sign, Ball(-sign) * loose.friction_static / loose.mass, Ball(0), 0, false, Of::loose});
+    if (!pressed_ && slide_ != -sign && loose.walls[index_of(side)])
+      list.push_back({-sign, loose.wall(side), Ball(0), side == wall_ ? loose_vanishing_ : 0, false, Of::loose});
+  }
+  if (!pressed_ && slide_ != 0) list.push_back({slide_, Ball(0), Ball(0), loose_still_for_, true, Of::loose});
+}
+
+/// Where a loose mass with z' = 0 slides to, +1 or -1, away from walls; 0: friction holds it.
+int Motion::way_in_housing() const {
+  const Ball up = hold_left(-1), down = hold_left(1);
+  if (up.is_negative()) return 1;
+  if (down.is_negative()) return -1;
+  if (!up.is_positive() || !down.is_positive()) throw Undecided("whether friction holds the loose mass");
+  return 0;
+}
+
+/// The loose mass is let go to a side, if it rubs as one that slides there.
+void Motion::slide_to(int way, int wall_vanishing, int still_for) {
+  pressed_ = false, loose_vanishing_ = wall_vanishing;
+  if (rubs()) slide_ = way, loose_still_for_ = still_for;
+}
+
+/// A loose mass with z' = 0, on a wall or where friction may hold it.
 void Motion::press_or_leave() {
-  const Ball press = pressing();
-  pressed_ = press.is_positive();
-  if (pressed_)
-    press_begin_ = state_of(set_.hull()).time;
-  else if (press.is_negative())
-    loose_vanishing_ = 2;
-  else
-    throw Undecided("whether a wall presses the loose mass");
+  if (on_wall_) {
+    const Ball press = pressing();
+    if (press.is_negative()) return slide_to(-sign_of(wall_), 2, 1);
+    if (!press.is_positive()) throw Undecided("whether a wall presses the loose mass");
+  } else if (const int way = way_in_housing(); way != 0) {
+    return slide_to(way, 0, 1);
+  }
+  pressed_ = true, slide_ = 0, press_begin_ = state_of(set_.hull()).time;
+}
+
+/// z' has fallen to 0: friction holds the loose mass where it is, or it turns back at once.
+Event Motion::stop_in_housing(const Ball& end) {
+  const Four hull = set_.hull();
+  const int before = slide_;
+  on_wall_ = false, press_or_leave();
+  if (pressed_) return finish_press(end);
+  if (slide_ == before) throw Undecided("whether the loose mass stops at all");
+  Event event{Kind::turn, Side::lower, hull[3], Ball(0), Ball(0)};
+  event.of_wall = true, event.x = hull[2];
+  return event;
 }
 
 /// The start of a loose mass on a wall.
@@ -225,7 +277,7 @@ void Motion::start_in_housing() {
     if (!depth.is_zero()) throw Undecided("on which side of a wall the motion starts");
     const Ball into = Ball(sign_of(side)) * hull[3];
     wall_ = side, loose_vanishing_ = 1;
-    if (into.is_negative()) continue;
+    if (into.is_negative()) return;
     if (hits_at_start_ || resting_) throw Undecided("a start on a wall beside an event of the main mass");
     if (into.is_zero() && !sticks_) {
       press_or_leave();
@@ -234,7 +286,11 @@ void Motion::start_in_housing() {
     } else {
       throw Undecided("a start at a wall");
     }
+    return;
   }
+  if (!rubs() || slide_ != 0) return;
+  on_wall_ = false;  // at the start its z' is 0
+  press_or_leave();
 }
 
 /// An impact on a wall (eq. 70). Without a rebound the wall presses the loose mass, or is left at once.
@@ -255,23 +311,32 @@ Event Motion::strike(Side side) {
     if (!v.is_positive() && !v.is_negative()) throw Undecided("whether friction holds the mass after a strike");
     heading_ = v.is_positive() ? 1 : -1;
   }
-  if (R.is_zero()) press_or_leave();
+  on_wall_ = true;
+  if (R.is_zero())
+    press_or_leave();
+  else
+    slide_to(-sign_of(side), 1, 0);
   return event;
 }
 
-/// The instant at which x'' of both masses as one is the acceleration of the loose mass in flight.
-Event Motion::let_go() {
-  pressed_ = false, loose_vanishing_ = 3;
-  return {Kind::release, wall_, set_.hull()[2], Ball(0), Ball(0)};
+/// The instant at which x'' of both masses as one is the acceleration of the loose mass in flight, or friction at its
+/// level is too weak against leaving it to a side.
+Event Motion::let_go(int sign) {
+  const bool gently = scene_.loose->is_let_go_gently;
+  slide_to(-sign, on_wall_ ? (gently ? 3 : 2) : 0, gently ? 2 : 1);
+  return {Kind::release, wall_, set_.hull()[*surface_], Ball(0), Ball(0)};
 }
 
-/// What an event of the main mass does to a press. In an impact on a stop the loose mass keeps its velocity y'.
-void Motion::press_on(const Event& event) {
-  if (event.kind == Kind::end) return;
-  if (event.kind != Kind::impact) return press_or_leave();
-  const Ball into = Ball(sign_of(wall_)) * (Ball(1) - factor_.value) * event.v;
-  if (!into.is_negative()) throw Undecided("whether both masses strike at one instant");
-  pressed_ = false, loose_vanishing_ = 1;
+/// What an event of the main mass that keeps its velocity does to a press.
+void Motion::press_on() { press_or_leave(); }
+
+/// In an impact of the main mass on a stop the loose one keeps its velocity y'.
+void Motion::shake(const Event& event) {
+  const Ball w = state_of(set_.hull()).y[3];
+  if (pressed_ && on_wall_ && !(Ball(sign_of(wall_)) * (Ball(1) - factor_.value) * event.v).is_negative())
+    throw Undecided("whether both masses strike at one instant");
+  if (rubs() && !w.is_positive() && !w.is_negative()) throw Undecided("whether the loose mass stops in an impact");
+  slide_to(w.is_positive() ? 1 : -1, !pressed_ ? loose_vanishing_ : on_wall_ ? 1 : 0, 0);
 }
 
 }  // namespace verify

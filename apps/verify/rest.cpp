@@ -23,7 +23,7 @@ Number time_of_phase(const BasicScene<Number>& scene, const Number& theta, slong
 /// The instant at which the force that presses the mass into a stop falls to 0: the first one after a time, or the
 /// nearest one.
 Dual Motion::time_of_release(Side side, const Ball& after, bool nearest) {
-  const Ball theta = phase_of_release(scene_, side);
+  const Ball theta = phase_of_release(acting(), side);
   const Ball turns = (scene_.nu * after + scene_.phase - theta) / (Ball(2) * Ball::pi());
   turns_ = nearest ? (turns + Ball(0.5)).floor() : turns.floor() + 1;
   if (family_ == nullptr) return time_of_phase(scene_, theta, turns_);
@@ -55,7 +55,7 @@ void Motion::collapse_on(Side side) {
 void Motion::rebound(Side side, const Ball& time) {
   heading_ = scene_.is_rough() ? -sign_of(side) : 0, still_for_ = 0;
   if (!scene_.stop(side).R.is_zero()) return begin(Mode::free, side, 1);
-  const Ball press = scene_.pressing(side, sin_cos(scene_.nu * time + scene_.phase).first) + scene_.friction_static;
+  const Ball press = acting().pressing(side, sin_cos(scene_.nu * time + scene_.phase).first) + scene_.friction_static;
   if (press.is_negative()) {
     if (scene_.is_rough()) still_for_ = 1;
     return begin(Mode::free, side, 2);
@@ -71,7 +71,7 @@ void Motion::rebound(Side side, const Ball& time) {
 Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) const {
   const Stop& stop = scene_.stop(side);
   const auto press = [&](const Ball& at) {
-    return scene_.pressing(side, sin_cos(scene_.nu * at + scene_.phase).first);
+    return acting().pressing(side, sin_cos(scene_.nu * at + scene_.phase).first);
   };
   const Ball& mu = scene_.friction;
   const Ball now = press(time), fastest = Ball(2) * w.upper();
@@ -103,7 +103,10 @@ Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) co
 void Motion::require_off_walls(const Rebounds& left) const {
   const auto [time, y] = state_of(set_.hull());
   const Ball s = Ball::hull(Ball(0), left.time), off = Ball::around_zero(left.height);
-  const Ball z = y[2] + s * (y[1] + y[3] + scene_.loose->load * s / Ball(2)) + off;
+  const Ball way = y[1] + y[3] + loose_load() * s, fastest = Ball::around_zero(Ball(2) * abs(y[1]).upper());
+  if (slide_ != 0 && !(Ball(slide_) * (way - fastest)).is_positive())
+    throw Undecided("whether a chatter is over before the loose mass stops in its housing");
+  const Ball z = y[2] + s * (y[1] + y[3] + loose_load() * s / Ball(2)) + off;
   for (const Side side : {Side::lower, Side::upper})
     if (scene_.loose->walls[index_of(side)] && !(Ball(sign_of(side)) * (scene_.loose->wall(side) - z)).is_positive())
       throw Undecided("whether a chatter is over before the loose mass strikes");
@@ -150,7 +153,7 @@ Event Motion::finish_rest_on_stop(const Ball& end) {
   const Stop& stop = scene_.stop(side);
   other_places_.push_back(stop.position);
   const Ball least =
-      Ball(sign_of(side)) * (scene_.load - scene_.k * stop.position) + scene_.friction_static - abs(scene_.f);
+      Ball(sign_of(side)) * (acting().load - scene_.k * stop.position) + scene_.friction_static - abs(scene_.f);
   const bool for_ever = least.is_positive();
   const Dual release = for_ever ? Dual(end) : time_of_release(side, rest_begin_, false);
   const bool lets_go = !for_ever && (release.value <= end || release.value.overlaps(end));
@@ -182,6 +185,7 @@ bool Motion::strikes_before(const Ball& time) {
   const auto crossing = first_crossing(flows_->alone.front().rate(), all, list, horizon);
   if (!crossing) return false;
   const Margin& margin = list[crossing->margin];
+  if (margin.of_velocity) throw Undecided("a loose mass that stops in its housing while something holds the main one");
   const Ball instant = instant_of(all, margin, Ball::hull(crossing->from, crossing->to));
   if (instant > horizon) return false;
   if (!(instant < horizon)) throw Undecided("whether a strike comes before a release");

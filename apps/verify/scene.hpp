@@ -36,9 +36,12 @@ struct BasicLooseMass {
   std::array<Number, 2> R;                     ///< restitution [wall]
   Number load;                                 ///< acceleration in flight
   std::array<std::optional<Number>, 2> walls;  ///< z [side]
+  Number friction{0}, friction_static{0};      ///< on the housing, over the main mass: in a slide, the most at z' = 0
+  bool is_let_go_gently = true;                ///< both are the same, exactly
 
   [[nodiscard]] const Number& wall(Side side) const { return *walls[index_of(side)]; }
   [[nodiscard]] const Number& restitution(Side side) const { return R[index_of(side)]; }
+  [[nodiscard]] bool is_rough() const { return !friction_static.is_zero(); }
   /// The share of both masses that it is: of a jump of z' the main mass takes so much.
   [[nodiscard]] Number share() const { return mass / (Number(1) + mass); }
 };

@@ -22,17 +22,17 @@ Motion::State Motion::state_of(const Four& coordinates) const {
 MachineFlight Motion::flight_from(const State& state) const {
   const Flow::Flight main(flow(), state.time, state.y[0], state.y[1]);
   if (!scene_.loose) return main;
-  return pressed_ ? MachineFlight::pressed(main, scene_.loose->load)
-                  : MachineFlight::flying(main, state.y[2], state.y[3], scene_.loose->load);
+  return pressed_ ? MachineFlight::pressed(main, state.y[2], scene_.loose->load)
+                  : MachineFlight::flying(main, state.y[2], state.y[3], loose_load());
 }
 
 Four Motion::state_at(const Moment& moment) const {
-  const auto& [main, loose] = moment;
-  if (pressed_) return {{main.x, main.v, scene_.loose->wall(wall_), Ball(0)}};
+  const auto& [main, loose, held_at] = moment;
+  if (pressed_) return {{main.x, main.v, moment.held_at, Ball(0)}};
   return {{main.x, main.v, loose.x, loose.v}};
 }
 Four Motion::rates_at(const Moment& moment) const {
-  const auto& [main, loose] = moment;
+  const auto& [main, loose, held_at] = moment;
   if (pressed_) return {{main.v, main.a, Ball(0), Ball(0)}};
   return {{main.v, main.a, loose.v, loose.a}};
 }
@@ -55,6 +55,7 @@ FourByFour Motion::over(const Ball& s) const {
   const Ball zero(0), one(1);
   FourByFour m = FourByFour::zero();
   m[0] = {{p.a, p.b, zero, zero}}, m[1] = {{p.c, p.d, zero, zero}};
+  if (pressed_ && !on_wall_) m[2][2] = one;
   if (!scene_.loose || pressed_) return m;
   m[2] = {{one - p.a, s - p.b, one, s}}, m[3] = {{-p.c, one - p.d, zero, one}};
   return m;
@@ -92,7 +93,7 @@ void Motion::move_to_end(const MachineFlight& all, const Ball& end, const Ball& 
   const State centre = state_of(set_.centre()), hull = state_of(set_.hull());
   const Four image = state_at(flight_from(centre).at(end - centre.time));
   set_.move(image, over(end - hull.time) * into_flight(all.at(Ball(0))), by_parameter_after(end - hull.time, slope));
-  surface_.reset(), time_ = end, vanishing_ = still_for_ = loose_vanishing_ = 0;
+  surface_.reset(), time_ = end, vanishing_ = still_for_ = loose_vanishing_ = loose_still_for_ = 0;
   require_bounds();
 }
 
@@ -104,18 +105,17 @@ void Motion::move_to_surface(const MachineFlight& all, const Margin& margin, con
   Four image = state_at(middle.at(middle_instant));
   const Moment there = all.at(instant);
   Four slope = Four::zero();  // of the margin, but for its sign
-  std::size_t surface = margin.which == Of::loose ? 2 : margin.of_velocity ? 1 : 0;
-  if (margin.which == Of::main)
+  const bool at_speed_zero = margin.of_velocity || (pressed_ && !on_wall_);
+  const std::size_t surface = margin.which == Of::main ? (margin.of_velocity ? 1 : 0) : at_speed_zero ? 3 : 2;
+  if (margin.which == Of::main || !pressed_)
     slope[surface] = Ball(1);
-  else if (!pressed_)
-    slope[2] = Ball(1);
   else
     slope[0] = flow().stiffness(), slope[1] = Ball(2) * flow().damping();  // of -x''
   if (!margin.q.is_zero()) slope[1] = margin.q;
   const Ball rate = Ball(margin.sign) * margin.rate(there);
   const Four late = slope.each([&](const Ball& by) { return by.is_zero() ? by : -by / rate; });
   Four rates = rates_at(there);
-  if (margin.of_velocity) rates[0] = Ball(0);
+  if (margin.of_velocity) rates[surface - 1] = Ball(0);
   FourByFour out = FourByFour::identity();
   for (std::size_t i = 0; i < 4; ++i)
     out[i] = i == surface ? late : out[i] + late.each([&](const Ball& by) { return rates[i] * by; });
@@ -134,14 +134,15 @@ void Motion::move_to_surface(const MachineFlight& all, const Margin& margin, con
   image[surface] = centre.time + middle_instant;
   set_.move(image, derivative, by_parameter);
   surface_ = surface, place_ = place, q_ = q, factor_ = Dual(1), kick_ = Ball(0), turn_ = Ball(1);
-  vanishing_ = still_for_ = loose_vanishing_ = 0;
+  vanishing_ = still_for_ = loose_vanishing_ = loose_still_for_ = 0;
   require_bounds();
 }
 
 /// The event that crossing a margin is, and the mode after it.
 Event Motion::pass(std::size_t index, const Margin& margin) {
   const Side side = mode_ != Mode::free ? side_ : margin.sign < 0 ? Side::upper : Side::lower;
-  if (margin.which == Of::loose) return pressed_ ? let_go() : strike(margin.sign < 0 ? Side::upper : Side::lower);
+  if (margin.which == Of::loose)
+    return pressed_ ? let_go(margin.sign) : strike(margin.sign < 0 ? Side::upper : Side::lower);
   const Four hull = set_.hull();
   Event event{Kind::end, side, hull[0], hull[1], Ball(0)};
   if (family_ != nullptr) {
@@ -155,6 +156,7 @@ Event Motion::pass(std::size_t index, const Margin& margin) {
       begin(Mode::contact, side, stop.h_s.is_zero() ? 1 : 0);
     } else {
       event.kind = Kind::impact, factor_ = family_ != nullptr ? -family_->scene.stop(side).R : Dual(-stop.R);
+      if (scene_.loose) shake(event);
       rebound(side, event.time);
     }
   } else if (mode_ == Mode::contact) {
@@ -164,7 +166,7 @@ Event Motion::pass(std::size_t index, const Margin& margin) {
     event.kind = index == 1 ? Kind::renewal : Kind::end;
     begin(index == 1 ? Mode::contact : Mode::free, side_, 1);
   }
-  if (pressed_) press_on(event);
+  if (pressed_ && event.kind != Kind::end) press_on();
   return event;
 }
 

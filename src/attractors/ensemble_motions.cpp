@@ -28,7 +28,7 @@ bool is_possible(const point::Problem& problem, const Ending& ending) {
 
 /// A mass that friction holds for good, or that creeps to the edge of the band in which it does.
 Motion stuck(const point::Problem& problem, const SectionState& state, Side creeps_to = Side::none) {
-  Motion motion{.periodic = standstill(problem, state.x), .state = state};
+  Motion motion{.periodic = standstill(problem, state), .state = state};
   motion.sticks = creeps_to == Side::none, motion.creeps_to = creeps_to;
   motion.periodic->word = observables::ImpactWord::stuck;
   if (problem.oscillator.forcing != 0) motion.periodic->regime = "0/1";
@@ -64,7 +64,7 @@ std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& prob
   if (stands_for_good(problem, state)) return band_ ? band_ : add(stuck(problem, state));
   if (problem.oscillator.forcing == 0) {
     if (const auto known = passing(state)) return known;
-    return add({.periodic = standstill(problem, state.x), .state = state});
+    return add({.periodic = standstill(problem, state), .state = state});
   }
   const double phase = ending.phase.value_or(start_phase(problem));
   if (const double turns = turns_to_phase_zero(phase); turns > 0) {
@@ -83,7 +83,7 @@ void EnsembleMotions::restore(const point::Problem& problem, const Ending& endin
   } else if (stands_for_good(problem, ending.state)) {
     motion = stuck(problem, ending.state);
   } else if (problem.oscillator.forcing == 0) {
-    motion.periodic = standstill(problem, ending.state.x);
+    motion.periodic = standstill(problem, ending.state);
   } else if (ending.periods > 0) {
     motion.periodic = periodic_motion(problem, ending.state, static_cast<std::size_t>(ending.periods));
   } else {

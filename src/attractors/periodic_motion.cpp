@@ -127,17 +127,22 @@ std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, Sec
   return motion;
 }
 
-PeriodicMotion standstill(const point::Problem& problem, double x) {
+PeriodicMotion standstill(const point::Problem& problem, const SectionState& state) {
+  const double x = state.x;
   double size = larger_of(x, equilibrium_of(problem.oscillator));
   for (const double stop : {problem.stops.lower, problem.stops.upper})
     if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
   const Stops& stops = problem.stops;
+  const LooseMass& loose = problem.loose;
+  const bool rubs = has_loose_friction(loose) && state.z != loose.lower && state.z != loose.upper;
   const Side on = x == stops.lower ? Side::lower : x == stops.upper ? Side::upper : soft_stop_beyond(stops, x);
-  return {.cycle = {{x, 0.0}},
+  return {.cycle = {{x, 0.0, state.z}},
           .word = ImpactWord::word_of({}, on),
           .regime = {},
           .size = std::max(size, 1.0),
-          .contracts = true};
+          .contracts = true,
+          .floats = rubs,
+          .rubs = rubs};
 }
 
 std::optional<SectionState> mirrored(const point::Problem& problem, const SectionState& state) {

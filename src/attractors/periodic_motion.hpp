@@ -34,8 +34,8 @@ struct PeriodicMotion {
 [[nodiscard]] std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, SectionState state,
                                                             std::size_t periods, double phase = 0.0);
 
-/// A mass that stands still at x without a force.
-[[nodiscard]] PeriodicMotion standstill(const point::Problem& problem, double x);
+/// A mass that stands still without a force, with a loose one at its place in the housing.
+[[nodiscard]] PeriodicMotion standstill(const point::Problem& problem, const SectionState& state);
 
 /// A state on a stop, or of a loose mass on a wall, to the accuracy to which motions are compared, that moves into it:
 /// the state after the impact.

@@ -41,10 +41,16 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
   return problem;
 }
 
-/// The displacement at which a mass that stands still at x does so at other parameters: on its stop, or in equilibrium.
-double place_of_rest(const point::Problem& from, const point::Problem& to, double x) {
-  if (x == from.stops.lower) return to.stops.lower;
-  return x == from.stops.upper ? to.stops.upper : equilibrium_of(to.oscillator);
+/// Where a mass that stands still does so at other parameters: on its stop, or in equilibrium; a loose one on its wall.
+SectionState place_of_rest(const point::Problem& from, const point::Problem& to, SectionState state) {
+  Oscillator both = to.oscillator;
+  both.load += to.loose.ratio * to.loose.load;
+  state.x = state.x == from.stops.lower   ? to.stops.lower
+            : state.x == from.stops.upper ? to.stops.upper
+                                          : equilibrium_of(both);
+  if (state.z == from.loose.lower) state.z = to.loose.lower;
+  if (state.z == from.loose.upper) state.z = to.loose.upper;
+  return state;
 }
 
 }  // namespace
@@ -80,7 +86,7 @@ bool TrackedMotion::follow(const point::Problem& next) {
     followed = false;
   } else if (to.oscillator.forcing == 0 || at_.oscillator.forcing == 0) {
     followed = to.oscillator.forcing == at_.oscillator.forcing;
-    state_.x = place_of_rest(at_, to, state_.x);
+    state_ = place_of_rest(at_, to, state_);
   } else if (is_periodic()) {
     followed = follow_periodic(to);
   } else {

@@ -21,7 +21,7 @@ struct ClaimedEvent {
   Side side;
   Claimed time;
   Claimed then;          ///< of a rest, a stick or a chatter the time of its end, else the velocity before the event
-  Claimed place{};       ///< of a stick or a reversal the displacement
+  Claimed place{};       ///< of a stick or a reversal the displacement, of those of a loose mass z
   bool grazes = false;   ///< it has no speed, and changes nothing
   bool of_wall = false;  ///< of a loose mass: the velocity is z', a rest is a press
 };

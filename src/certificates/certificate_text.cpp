@@ -27,6 +27,13 @@ Json json_of(const Stops& stops, Side side) {
   return stop;
 }
 
+/// Dry friction, if there is any.
+void add_friction(Json& json, double kinetic, double static_level) {
+  if (kinetic == 0 && static_level == 0) return;
+  json["friction"] = kinetic;
+  if (static_level != kinetic) json["friction_static"] = static_level;
+}
+
 Json json_of(const LooseMass& loose) {
   const bool are_alike = loose.restitution_lower == loose.restitution_upper;
   Json json{{"mass", loose.ratio}, {"load", loose.load}};
@@ -36,6 +43,7 @@ Json json_of(const LooseMass& loose) {
     json[name] = {{"position", position}};
     if (!are_alike) json[name]["R"] = R;
   };
+  add_friction(json, loose.friction, loose.friction_static);
   add_wall("lower", loose.lower, loose.restitution_lower), add_wall("upper", loose.upper, loose.restitution_upper);
   return json;
 }
@@ -44,10 +52,7 @@ Json json_of(const Scene& scene) {
   const Oscillator& o = scene.oscillator;
   Json json{{"h", o.damping},    {"k", o.stiffness}, {"f", o.forcing},
             {"nu", o.frequency}, {"load", o.load},   {"phase", scene.start.phase}};
-  if (has_friction(scene.friction)) {
-    json["friction"] = scene.friction.kinetic;
-    if (scene.friction.static_level != scene.friction.kinetic) json["friction_static"] = scene.friction.static_level;
-  }
+  add_friction(json, scene.friction.kinetic, scene.friction.static_level);
   if (has_loose_mass(scene.loose)) json["loose"] = json_of(scene.loose);
   if (std::isfinite(scene.stops.lower)) json["lower"] = json_of(scene.stops, Side::lower);
   if (std::isfinite(scene.stops.upper)) json["upper"] = json_of(scene.stops, Side::upper);
@@ -57,9 +62,11 @@ Json json_of(const Scene& scene) {
 /// Of a loose mass an event is one on a wall, on which a rest is a press. Beside stops the wall is named as such.
 Json json_of(const ClaimedEvent& event, bool tells_walls) {
   if (event.side == Side::none) {
-    Json turn{{"event", motion::Event::word(event.kind)}, {"time", json_of(event.time)}};
-    if (event.kind == Kind::stick) turn["until"] = json_of(event.then);
-    turn["x"] = json_of(event.place);
+    const bool stays = event.kind == Kind::stick;
+    const auto kind = !event.of_wall ? motion::Event::word(event.kind) : stays ? "hold" : "turn";
+    Json turn{{"event", kind}, {"time", json_of(event.time)}};
+    if (stays) turn["until"] = json_of(event.then);
+    turn[event.of_wall ? "z" : "x"] = json_of(event.place);
     return turn;
   }
   if (event.grazes) return {{"event", "graze"}, {"stop", name_of(event.side)}, {"time", json_of(event.time)}};

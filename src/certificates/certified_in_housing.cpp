@@ -24,6 +24,25 @@ bool is_held_twice(const RecordedMotion<4>& motion) {
          !std::ranges::all_of(motion.events, &RecordedEvent<4>::held);
 }
 
+/// Whether friction in the housing acts in a chatter on a wall, or stops the loose mass while something holds the main
+/// one.
+bool is_beyond_claims(const Problem& problem, const RecordedMotion<4>& motion) {
+  if (!has_loose_friction(problem.loose)) return false;
+  using enum motion::Event::Kind;
+  const auto stops_beside = [&](const RecordedEvent<4>& one, const RecordedEvent<4>& other) {
+    return one.lasts() && !one.of_wall && other.is_of_loose_friction() && other.time <= one.end();
+  };
+  const auto chatters = [](const RecordedEvent<4>& one,
+                           const RecordedEvent<4>& other) {  // a rebound turns, and is lost
+    const bool rebounds =
+        one.kind == reversal ? one.is_of_loose_friction() : one.kind == impact && one.of_wall && one.after != 0;
+    return rebounds && other.of_wall && other.kind == rest;
+  };
+  return std::ranges::adjacent_find(motion.events, stops_beside) != motion.events.end() ||
+         std::ranges::adjacent_find(motion.events, chatters) != motion.events.end() ||
+         std::ranges::any_of(motion.events, [](const auto& event) { return event.kind == chatter && event.of_wall; });
+}
+
 /// The order of two events within rounding of each other isn't known.
 void drop_if_at_one_instant(CertifiedPoint& point) {
   if (!point.certificate) return;
@@ -43,8 +62,12 @@ void drop_if_at_one_instant(CertifiedPoint& point) {
 
 void certify_transient_in_housing(const Problem& problem, const PointResult& result, CertifiedPoint& point) {
   auto motion = recorded_in_housing(problem, problem.time.duration / period_of(problem.oscillator));
+  const bool begins_still = problem.start.velocity == 0 && problem.loose.velocity == 0;
   point.without = motion && is_held_twice(*motion) ? Without::both_held : Without::rounding;
-  if (!motion || point.without == Without::both_held) return;
+  if (has_friction(problem.friction) && has_loose_friction(problem.loose) && begins_still)
+    point.without = Without::both_held;  // or one of them, by friction
+  if (motion && is_beyond_claims(problem, *motion)) point.without = Without::loose_friction;
+  if (!motion || point.without != Without::rounding) return;
   certify_run<HousingBounds>(problem, std::move(*motion), result, point);
   drop_if_at_one_instant(point);
 }
@@ -99,7 +122,12 @@ void certify_periodic_in_housing(const Problem& problem, const PointResult& resu
     point.without = Without::both_held;
     return;
   }
-  if (whole->events.empty()) {  // wherever the loose mass stands, or drifts to and fro
+  if (is_beyond_claims(problem, *whole)) {
+    point.without = Without::loose_friction;
+    return;
+  }
+  const auto meets_wall = [](const RecordedEvent<4>& event) { return event.of_wall && event.side != Side::none; };
+  if (std::ranges::none_of(whole->events, meets_wall)) {  // wherever the loose mass stands, or moves to and fro
     point.without = Without::family;
     return;
   }

@@ -209,10 +209,6 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
     point.without = Without::soft_wall;
     return point;
   }
-  if (has_loose_friction(problem.loose)) {
-    point.without = Without::loose_friction;
-    return point;
-  }
   const bool is_steady = known.status == Status::periodic;
   if (is_steady && problem.oscillator.forcing == 0) {
     point.without = Without::force;

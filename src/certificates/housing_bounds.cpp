@@ -64,9 +64,9 @@ motion::Event::Main HousingBounds::main_at(const RecordedEvent<4>& event) {
   return event.of_wall ? event.main : motion::Event::Main{event.place, event.before, event.after};
 }
 
-double HousingBounds::acceleration(const RecordedEvent<4>& event, bool pressed) const {
+double HousingBounds::acceleration(const RecordedEvent<4>& event, double time, bool pressed) const {
   const auto [x, v, after] = main_at(event);
-  double a = acceleration_at(event.time, x, v);
+  double a = acceleration_at(time, x, v);
   if (const auto within = motion::known_soft_stop_around(stops_, x, v); within.pressed) {
     const auto stop = motion::known_soft_stop(stops_, within.side);
     a -= stop.stiffness * within.offset + 2 * stop.damping * v;
@@ -74,8 +74,9 @@ double HousingBounds::acceleration(const RecordedEvent<4>& event, bool pressed) 
   return pressed ? (a + loose_.ratio * loose_.load) / (1 + loose_.ratio) : a;
 }
 
-ClaimedEvent HousingBounds::claimed(const RecordedEvent<4>& event, const ClaimedEvent* before) const {
+ClaimedEvent HousingBounds::claimed_by_load(const RecordedEvent<4>& event, const ClaimedEvent* before) const {
   const Sizes error = error_after(event.derivative, event.rounding);
+  if (event.is_of_loose_friction()) return claimed_in_housing(event, before);
   if (event.side == Side::none) return claimed_turn(event, error[0], error[1]);
   if (event.lasts()) return claimed_stay(event, before);
   if (event.of_wall) {  // the instant at which z reaches a wall
@@ -85,6 +86,22 @@ ClaimedEvent HousingBounds::claimed(const RecordedEvent<4>& event, const Claimed
   const ClaimedEvent alone = claimed_contact(event, error[0], error[1], acceleration(event));
   if (before == nullptr || !is_cut(*before, alone)) return alone;
   return claimed_contact(event, error[0], error[1], acceleration(event, true));
+}
+
+/// z' falls to 0 the later the slower it does; a hold that an event of the main mass begins has its time.
+ClaimedEvent HousingBounds::claimed_in_housing(const RecordedEvent<4>& event, const ClaimedEvent* before) const {
+  const bool turns = event.kind == Kind::reversal;
+  const Sizes error =
+      turns ? error_after(event.derivative, event.rounding) : error_after(event.stop, event.rounding_at_stop);
+  ClaimedEvent claim{
+      event.kind, Side::none, {begin_ + event.time, time_error(event.time)}, {}, {event.place, error[2]}};
+  claim.of_wall = true;
+  if (event.a_before != 0)
+    claim.time.error += error[3] / std::abs(event.a_before);
+  else if (before != nullptr)
+    claim.time.error = before->time.error, claim.place.error = error_after(event.derivative, event.rounding)[2];
+  if (!turns) claim.then = {begin_ + event.end(), release_error(event)};
+  return claim;
 }
 
 ClaimedEvent HousingBounds::claimed_stay(const RecordedEvent<4>& event, const ClaimedEvent* before) const {
@@ -103,8 +120,8 @@ ClaimedEvent HousingBounds::claimed_stay(const RecordedEvent<4>& event, const Cl
   return claim;
 }
 
-/// x'' of both masses as one reaches the acceleration of the loose one the later, the slower it changes (eq. 72); a
-/// press may go on to the end of the motion.
+/// x'' of both masses as one reaches the acceleration at which the loose one is let go the later, the slower it changes
+/// (eqs. 72 and 81); a press, or a hold, may go on to the end of the motion.
 double HousingBounds::release_error(const RecordedEvent<4>& event) const {
   constexpr double same = 1e-12;
   if (event.end() >= duration_ * (1 - same)) return time_error(event.end());
@@ -116,8 +133,9 @@ double HousingBounds::release_error(const RecordedEvent<4>& event) const {
     h += stop.damping, k += stop.stiffness, forces += std::abs(stop.stiffness * stop.position);
   }
   const double f = oscillator_.forcing, nu = oscillator_.frequency, both = 1 + loose_.ratio;
-  const double jerk = std::abs(f * nu * std::cos(nu * event.end() + phase_) - 2 * h * loose_.load - k * v) / both;
-  forces += std::abs(f) + 2 * h * std::abs(v) + std::abs(k * place);
+  const double a = acceleration(event, event.end(), true);
+  const double jerk = std::abs(f * nu * std::cos(nu * event.end() + phase_) - 2 * h * a - k * v) / both;
+  forces += std::abs(f) + 2 * h * std::abs(v) + std::abs(k * place) + loose_.friction_static;
   const double of_force =
       2 * h * error[1] + std::abs(k) * error[0] + of_arithmetic * (forces / both + std::abs(loose_.load));
   return time_error(event.end()) + of_force / jerk;

@@ -29,6 +29,15 @@ bool are_alike(const motion::Event& one, const motion::Event& other) {
   return one.kind == other.kind && one.side == other.side && one.of_wall == other.of_wall;
 }
 
+/// A hold that begins where friction stops the loose mass knows the motion there, and takes the place of that event.
+void take_stop(std::vector<RecordedEvent<4>>& events, RecordedEvent<4>& hold, double same_time) {
+  if (!hold.is_of_loose_friction() || !hold.is_stick() || events.empty()) return;
+  const RecordedEvent<4>& stop = events.back();
+  if (!stop.is_of_loose_friction() || stop.kind != Kind::reversal || hold.time - stop.time > same_time) return;
+  hold.stop = stop.derivative, hold.rounding_at_stop = stop.rounding, hold.a_before = stop.a_before;
+  events.pop_back();
+}
+
 /// The events of a record with their derivatives; a rest, a stick or a press that sections cut is one. The sum of a
 /// chatter of the main mass that rounding has ended lasts no time.
 std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, Growth<4>& growth) {
@@ -44,11 +53,15 @@ std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, G
     const bool goes_on = event.lasts() && !events.empty() && are_alike(events.back(), event) &&
                          event.time - events.back().end() <= same_time * (1 + event.time);
     RecordedEvent<4> recorded{event, growth.derivative(), growth.rounding()};
+    take_stop(events, recorded, same_time * (1 + event.time));
     if (goes_on) {
       const RecordedEvent<4>& before = events.back();
       recorded.time = before.time, recorded.length = event.end() - recorded.time;
       // a stick begins the later, the more the velocity before it is off, of which it leaves nothing
-      if (event.is_stick()) recorded.derivative = before.derivative, recorded.rounding = before.rounding;
+      if (event.is_stick() && !event.of_wall)
+        recorded.derivative = before.derivative, recorded.rounding = before.rounding;
+      recorded.stop = before.stop, recorded.rounding_at_stop = before.rounding_at_stop;
+      recorded.a_before = before.a_before;
       events.pop_back();
     }
     events.push_back(recorded);
@@ -58,7 +71,7 @@ std::vector<RecordedEvent<4>> events_of(const point::MotionRecorder& recorder, G
 
 MachineState state_of(const motion::State<double>& state, const LooseMass& loose) {
   const auto [z, w] = motion::place_in_housing(state, loose);
-  return {state.x, state.v, z, w, state.loose.pressed ? state.loose.wall : Side::none};
+  return {state.x, state.v, z, w, state.loose.pressed && state.loose.place == 0 ? state.loose.wall : Side::none};
 }
 
 }  // namespace

@@ -30,7 +30,11 @@ template <std::size_t n>
 struct RecordedEvent : motion::Event {
   typename Growth<n>::Map derivative{};  ///< of the state before it, of a press at its end, by that at the start
   typename Growth<n>::Sizes rounding{};  ///< that of earlier flights as it has grown, in its units
+  typename Growth<n>::Map stop{};        ///< of a hold that begins where friction stops a loose mass, there,
+  typename Growth<n>::Sizes rounding_at_stop{};
 
+  /// Whether friction holds, or turns, a loose mass in its housing.
+  [[nodiscard]] bool is_of_loose_friction() const { return of_wall && side == Side::none; }
   [[nodiscard]] bool is_rest() const { return kind == Kind::rest; }
 };
 

@@ -22,7 +22,7 @@ std::string reason_of(const CertifiedPoint& point) {
     case Without::soft_wall:
       return "with a soft wall of the loose mass";
     case Without::loose_friction:
-      return "with friction of the loose mass";
+      return "with friction in a chatter of the loose mass";
     case Without::both_held:
       return "with both masses held at once";
     case Without::one_instant:

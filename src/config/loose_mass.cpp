@@ -97,24 +97,6 @@ void check_main_mass(const Settings& settings) {
                          "the base would push the loose mass, too; leave one of the three out");
 }
 
-/// Steady motion and sections are those of a force, or of a base that is shaken, at every point.
-void check_force(const Settings& settings, const AxisGroups& groups) {
-  const Setting* const force = settings.given(settings.is_si() ? Parameter("force") : Parameter("f"));
-  const auto is_zero = [](double value) { return value == 0; };
-  const std::array idle{Condition{force, is_zero}, Condition{settings.given("base_amplitude"), is_zero}};
-  const auto point = point_with_all(settings, groups, idle);
-  if (!point) return;
-  const std::string key = settings.is_si() ? "force" : "f";
-  const SourceLocation& place =
-      force != nullptr ? force->location_of(point->front()) : settings.given(loose_mass)->key_location;
-  if (settings.text("time", "mode") == "steady")
-    refuse(place, "steady motion without a force",
-           "give " + key + " or base_amplitude, or mode = \"transient\" and a duration in [time]");
-  if (const Setting* const section = settings.find("observe", "section");
-      section != nullptr && settings.integer("observe", "section") > 0)
-    refuse(section->key_location, "a section without a force", "give " + key + ", or observe a trajectory");
-}
-
 /// Refuses a parameter that a scene with a loose mass doesn't have, or can't be followed along.
 void check_followed(const Settings& settings, const std::string& key, const Setting* range) {
   if (!followed(settings, key)) return;
@@ -160,7 +142,6 @@ void check_loose_mass(const Settings& settings) {
 void check_housing(const Settings& settings, const AxisGroups& groups) {
   if (settings.given(loose_mass) == nullptr) return;
   check_walls(settings, groups);
-  check_force(settings, groups);
   if (settings.given("loose_friction_static") != nullptr)
     compare(
         placed(settings, groups, "loose_friction"), placed(settings, groups, "loose_friction_static"),

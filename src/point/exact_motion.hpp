@@ -24,14 +24,18 @@ class MotionRecorder {
   void arc(const A& arc, double begin, double length) {
     watch.arc(arc, begin, length);
     if (loose) [[unlikely]] {
+      if (keeps_derivatives_) note_stop(arc, begin);
       loose->arc(arc, begin, length);
       if (!keeps_derivatives_) return;
       const motion::Motion<double> end = arc.at(length);
-      main_ = {end.x, end.v, end.v};
+      main_ = {end.x, end.v, end.v}, rubbing_ = static_cast<double>(arc.constants().rubbing);
+      if constexpr (motion::Housed<A>)
+        if constexpr (requires { arc.loose.load(); }) slowing_ = arc.loose.load() - end.a;
     }
   }
   /// An event of a loose mass is kept as one of a mass between stops, a press as the hold that it begins.
   void event(const motion::Event& event) {
+    was_sliding_ = false;
     if (event.kind != motion::Event::Kind::press) add(event.in_housing());
     watch.event(event);
     if (loose) loose->event(event);
@@ -39,7 +43,8 @@ class MotionRecorder {
 
   void keep_events() { keeps_events_ = true; }
   /// Keeps them with the derivative of the motion to each from the one before, the first from here; of a time on a wall
-  /// to its end, and with the main mass there.
+  /// to its end, and with the main mass there. A loose mass that friction stops in its housing, of which no event
+  /// tells, is kept as a reversal there.
   void keep_derivatives() { keeps_events_ = keeps_derivatives_ = true, watch.differentiate(); }
 
   steady::PassageObserver watch;
@@ -49,18 +54,44 @@ class MotionRecorder {
   std::vector<motion::LooseJacobian> loose_derivatives{};  ///< in place of them with a loose mass
 
  private:
+  /// Friction has stopped a loose mass if it slid, and it now begins with z' = 0, or moves with the main one.
+  template <class A>
+  void note_stop(const A& arc, double begin) {
+    bool slides = false, begins_still = false;
+    double place = 0.0;
+    if constexpr (motion::Housed<A>) {
+      place = motion::place_at(arc.loose, 0.0);
+      if constexpr (requires { arc.loose.load(); })
+        slides = arc.constants().rubbing != 0, begins_still = arc.loose.at(0.0).v == 0;
+      else
+        begins_still = true;
+    }
+    if (was_sliding_ && begins_still)
+      add({.kind = motion::Event::Kind::reversal,
+           .time = begin,
+           .place = place,
+           .a_before = slowing_,
+           .main = main_,
+           .of_wall = true});
+    was_sliding_ = slides;
+  }
   void add(const motion::Event& event) {
     if (keeps_events_) events.push_back(event);
     if (keeps_derivatives_ && loose) [[unlikely]] {
       loose_derivatives.push_back(loose->map()), loose->begin_anew();
-      if (event.lasts()) events.back().main = main_;
+      if (event.lasts())
+        events.back().main = main_;
+      else
+        events.back().rubbing = rubbing_;
     } else if (keeps_derivatives_) {
       derivatives.push_back(watch.derivative()), watch.begin_derivative_anew();
     }
   }
 
   bool keeps_events_ = false, keeps_derivatives_ = false;
-  motion::Event::Main main_{};  ///< at the end of the last arc
+  motion::Event::Main main_{};            ///< at the end of the last arc
+  double rubbing_ = 0.0, slowing_ = 0.0;  ///< the friction of a loose mass on it, and z'' at its end
+  bool was_sliding_ = false;              ///< beside it the loose mass slid, and no event has come since
 };
 
 /// The motion of a problem by the exact method, with the effects that it requires, for those who look at a motion

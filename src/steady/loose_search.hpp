@@ -5,17 +5,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "motion/walls.hpp"
-#include "scene/displacement_bound.hpp"
-#include "scene/effects.hpp"
 #include "steady/contact_at_section.hpp"
 #include "steady/housing_map.hpp"
+#include "steady/loose_escape.hpp"
+#include "steady/loose_standstill.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/passage_observer.hpp"
 #include "steady/repeat.hpp"
@@ -24,35 +23,9 @@
 
 namespace clatter::steady {
 
-/// Whether a loose mass is proved to leave its housing for ever through the side without a wall: no force brings it
-/// back, and its displacement y keeps clear of all places at which the main mass can carry the wall that there is. Of
-/// one that rubs on the housing nothing is proved.
-[[nodiscard]] inline bool loose_mass_escapes(const Scene& scene, const motion::State<double>& state,
-                                             const SineCosine<double>& phase) {
-  const LooseMass& loose = scene.loose;
-  const Oscillator& o = scene.oscillator;
-  const bool is_open_above = std::isinf(loose.upper), is_open_below = std::isinf(loose.lower);
-  if (state.loose.pressed || (!is_open_above && !is_open_below) || has_loose_friction(loose)) return false;
-  const auto [z, w] = motion::place_in_housing(state, loose);
-  const double y = state.loose.wall == Side::none ? state.loose.place : z + state.x,
-               v = state.loose.wall == Side::none ? state.loose.speed : w + state.v;
-  const double middle = equilibrium_of(o);
-  const PhaseState main{state.x - middle, state.v, phase.sine, phase.cosine};
-  constexpr double for_ever = std::numeric_limits<double>::infinity();
-  const bool in_a_stop = soft_stop_beyond(scene.stops, state.x) != Side::none;  // which has stored energy
-  const double far = in_a_stop                      ? for_ever
-                     : has_events_of_its_own(scene) ? displacement_bound_through_impacts(o, main, for_ever)
-                                                    : displacement_bound(o, main, for_ever, 0.0);
-  const auto departs = [&](int sign, double wall) {  // the wall on the other side, which may be at infinity, too
-    if (!(sign * loose.load >= 0) || !(sign * v > 0 || (sign * loose.load > 0 && v == 0))) return false;
-    return std::isinf(wall) || sign * (y - middle - wall) > far;
-  };
-  return (is_open_above && departs(1, loose.lower)) || (is_open_below && departs(-1, loose.upper));
-}
-
-/// Finds the steady state of forced motion with a loose mass, section by section: by Newton's method once successive
-/// states contract, else by repetition of its displacement and velocity, and the place of the loose mass in its housing
-/// with z'.
+/// Finds the steady state of motion with a loose mass, section by section: by Newton's method once successive states
+/// contract, else by repetition of its displacement and velocity, and the place of the loose mass in its housing with
+/// z'; without a force by the standstill at which all motion ends that loses energy.
 template <stepping::Integrator I>
 class HousingSearch {
  public:
@@ -66,19 +39,23 @@ class HousingSearch {
         beyond_contact_(scene, integrator.period()),
         repeat_(time.tolerance),
         watch_(passage_observer(integrator, scene)),
-        map_(integrator, scene, time.tolerance) {}
+        map_(integrator, scene, time.tolerance) {
+    if (scene.oscillator.forcing == 0) standstill_.emplace(scene, time);
+  }
 
   /// Runs from `state`, at a section, until the steady state is known.
   [[nodiscard]] ObservedTime run(motion::State<double> state) {
     const SineCosine<double> phase = integrator_.phase(motion::State<double>{});
     for (;; ++section_) {
       recent_[place_of(section_) % recent_.size()] = state;
-      if (section_ >= from_)
+      if (standstill_)
+        if (auto found = standstill_->from(state, settled(), by_newton_)) return std::move(*found);
+      if (section_ >= from_ && !(standstill_ && standstill_->is_due()))
         if (const std::size_t n = repeats(state)) return repetition(n);
-      if (loose_mass_escapes(scene_, state, phase)) return escape(state, simulated());
+      if (loose_mass_escapes(scene_, state, phase) || both_escape(scene_, state)) return escape(state, simulated());
       if (section_ == time_.max_periods)
         return {Status::aperiodic, state, static_cast<double>(time_.window), simulated(), FoundBy::nothing};
-      if (by_newton_)
+      if (by_newton_ && !standstill_)
         if (auto found = attractor(state)) return std::move(*found);
       watch_.begin_section();
       const stepping::Outcome outcome = advance_to_section(integrator_, state, state.periods, watch_);
@@ -153,6 +130,7 @@ class HousingSearch {
   Contracting contracting_{};
   HousingObserver watch_;
   HousingMap<I> map_;
+  std::optional<LooseStandstill> standstill_{};           ///< without a force
   std::array<motion::State<double>, longest> recent_{};   ///< [section modulo its size]
   std::array<std::uint64_t, 2 * longest> itineraries_{};  ///< [section modulo its size], of the period from it
 };

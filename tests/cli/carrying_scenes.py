@@ -86,3 +86,20 @@ def beside_stops(draw, keys):
 def carrying_scenes_beside_stops(count, seed):
     draw = random.Random(f"loose beside stops {seed}")
     return [beside_stops(draw, keys) for keys in carrying_scenes(count, seed)]
+
+
+def rubbing(draw, keys):
+    """The same with dry friction between the loose mass and its housing."""
+    keys = {name: value for name, value in keys.items() if name != "base_amplitude"}
+    push = max(abs(keys["loose_load"]), abs(keys["f"]) / (1 + keys["loose_mass"]))
+    keys["loose_friction"] = keys["loose_mass"] * push * logarithmic(draw, 0.03, 0.7)
+    if draw.random() < 0.5:
+        keys["loose_friction_static"] = keys["loose_friction"] * draw.uniform(1, 1.5)
+    return keys
+
+
+def rubbing_scenes(count, seed):
+    """Half of them between stops of the main mass."""
+    draw = random.Random(f"rubbing {seed}")
+    scenes = carrying_scenes(count // 2, seed) + carrying_scenes_beside_stops(count - count // 2, seed)
+    return [rubbing(draw, keys) for keys in scenes]

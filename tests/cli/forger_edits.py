@@ -13,7 +13,7 @@ from forger_judge import LAST, OTHER, Unreliable, number, period_of
 def widened(certificate, error):
     """Errors so large that only the list of events, not its numbers, tells what is false."""
     for event in certificate["events"]:
-        for name in ("time", "until", "v", "w", "x"):
+        for name in ("time", "until", "v", "w", "x", "z"):
             if name in event:
                 event[name][1] = max(number(event[name][1]), error)
     return certificate
@@ -54,8 +54,8 @@ def begin_at_the_end(events, draw):
     if events[-1]["event"] in LAST:
         again = copy.deepcopy(events[-1])
         again["time"] = list(again["until"])
-        if "x" in again:
-            again["x"] = [0, again["x"][1]]
+        for place in {"x", "z"} & again.keys():
+            again[place] = [0, again[place][1]]
         events.append(again)
 
 
@@ -71,7 +71,7 @@ def shift(events, draw):
 
 def split(events, draw):
     """One rest, stick or press becomes two."""
-    found = [i for i, event in enumerate(events) if event["event"] in ("rest", "stick", "press")]
+    found = [i for i, event in enumerate(events) if event["event"] in ("rest", "stick", "press", "hold")]
     if found:
         at = draw.choice(found)
         begin, end = (number(events[at][name][0]) for name in ("time", "until"))
@@ -96,14 +96,30 @@ def other_stop(events, draw):
         events[at][name] = OTHER[events[at][name]]
 
 
+MASSES = {"reversal": "turn", "turn": "reversal", "stick": "hold", "hold": "stick"}
+MATES = {"x": "z", "z": "x"}
+
+
 def other_mass(events, draw):
     """An event of one mass becomes one of the other."""
     at = draw.randrange(len(events))
+    if events[at]["event"] in MASSES:
+        events[at] = {MATES.get(name, name): value for name, value in events[at].items()}
+        events[at]["event"] = MASSES[events[at]["event"]]
     for name, other, speed, other_speed in (("stop", "wall", "v", "w"), ("wall", "stop", "w", "v")):
         if name in events[at]:
             renamed = {name: other, speed: other_speed}
             events[at] = {renamed.get(key, key): value for key, value in events[at].items()}
             return
+
+
+def held_or_not(events, draw):
+    """A loose mass that friction turns is said to be held, or the other way round."""
+    at = draw.randrange(len(events))
+    if events[at]["event"] == "turn":
+        events[at] = {**events[at], "event": "hold", "until": copy.deepcopy(draw.choice(events)["time"])}
+    elif events[at]["event"] == "hold":
+        events[at] = {name: value for name, value in events[at].items() if name != "until"} | {"event": "turn"}
 
 
 def end_of_another(events, draw):
@@ -113,7 +129,7 @@ def end_of_another(events, draw):
 
 
 LISTS = [leave_out, leave_out_a_chatter, double, double_a_last, begin_at_the_end, exchange, shift, split, join]
-LISTS += [other_stop, other_mass, end_of_another]
+LISTS += [other_stop, other_mass, held_or_not, end_of_another]
 
 
 def more_periods(certificate, draw):

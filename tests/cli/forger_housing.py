@@ -16,16 +16,24 @@ class HousedMotion(Motion):
         self.walls = {side: number(loose[side]["position"]) for side in SIGN if side in loose}
         self.restitution = {side: number(loose[side].get("R", loose.get("R"))) for side in self.walls}
         self.share, self.pressed, self.since = self.mass / (1 + self.mass), start.get("pressed"), number(start["time"])
-        self.was_pressed = self.struck_on = None
+        self.was_carried, self.struck_on = False, None
+        self.rub = number(loose.get("friction", 0))
+        self.hold = number(loose.get("friction_static", self.rub)) / self.mass
+        self.gripped, self.slide = False, 0  # by friction alone; the sign of z'
         self.name = "wall" if {"lower", "upper", "friction"} & scene.keys() else "stop"
         if self.pressed:
             self.z, self.w = self.walls[self.pressed], 0.0
         else:
             self.z, self.w = (number(start[n][0] if isinstance(start[n], list) else start[n]) for n in "zw")
+        self.slide = int(np.sign(self.w)) if self.hold else 0
         super().__init__(scene, start, end)
 
     def begin(self, start):
         super().begin(start)
+        if self.hold and self.w == 0 and not self.pressed:
+            if self.v == 0 and (self.mu_static or self.stops):
+                raise Unreliable("whether friction holds a mass at the start")
+            self.stop_in_housing(False)
         for side, place in self.walls.items():
             depth, into = SIGN[side] * (self.z - place), SIGN[side] * self.w
             if self.pressed or depth < -1e-9:
@@ -34,41 +42,73 @@ class HousedMotion(Motion):
                 raise Unreliable("a start on a wall")
             if into > 0:
                 self.strike(side)
-            elif into == 0 and self.push_on(side) > 0:
+            elif into == 0 and not self.gripped and self.push_on(side) > 0:
                 self.pressed = side
+
+    def carries(self):
+        return self.pressed or self.gripped
 
     def flow(self, heading=None):
         alone = super().flow(heading)
-        if not self.pressed:
-            return alone
+        if not self.carries():
+            return self.drawn(alone, self.slide * self.rub)
+        return self.as_one(alone)
+
+    @staticmethod
+    def drawn(flow, load):
+        return Flow(flow.h, flow.k, flow.f, flow.nu, flow.phase, flow.load + load) if load else flow
+
+    def as_one(self, alone):
         whole, load = 1 + self.mass, alone.load + self.mass * self.load
         return Flow(alone.h / whole, alone.k / whole, alone.f / whole, alone.nu, alone.phase, load / whole)
 
+    def pressing(self, side, t):
+        return super().pressing(side, t) + SIGN[side] * self.slide * self.rub
+
+    def left(self, way):
+        """The acceleration that is left until the loose mass leaves both masses as one, against that way."""
+        return self.hold - way * (self.load - self.as_one(Motion.flow(self)).push(self.t, self.x, self.v))
+
+    def stop_in_housing(self, moved):
+        """A loose mass with z' = 0 away from walls: friction holds it, or it slides where it is pushed."""
+        self.w, up, down = 0.0, self.left(1), self.left(-1)
+        if min(abs(up), abs(down)) < 1e-6:
+            raise Unreliable("whether friction holds the loose mass")
+        self.gripped, self.since = min(up, down) > 0, self.t
+        if not self.gripped and moved:
+            self.tell("turn", time=self.t, z=self.z)
+        self.slide = 0 if self.gripped else 1 if up < 0 else -1
+
     def beside(self, flow):
         """The states at some times of a flight from now on; None: something holds the main mass."""
-        start, z0, w0, wall = (self.t, self.x, self.v), self.z, self.w, self.pressed
+        start, z0, w0, carried = (self.t, self.x, self.v), self.z, self.w, self.carries()
+        load = self.load - self.slide * self.rub / self.mass
 
         def at(t):
             x, v = flow.at(start, t) if flow else (start[1] + 0 * t, 0 * t)
-            if wall:
-                return x, v, self.walls[wall] + 0 * t, 0 * t
+            if carried:
+                return x, v, z0 + 0 * t, 0 * t
             s = t - start[0]
-            y, rate = start[1] + z0 + (start[2] + w0) * s + self.load * s * s / 2, start[2] + w0 + self.load * s
+            y, rate = start[1] + z0 + (start[2] + w0) * s + load * s * s / 2, start[2] + w0 + load * s
             return x, v, y - x, rate - v
 
         return at
 
     def advance(self):
         held = self.mode in ("rest", "stick")
-        if held and self.pressed:
+        if held and self.carries():
             raise Unreliable("both masses are held")
         flow = None if held else self.flow()
         at = self.beside(flow)
         names, margins = self.of_held() if held else self.margins(flow, (self.t, self.x, self.v))
-        if self.pressed:
-            names.append(("let go", self.pressed))
-            margins.append(lambda t: SIGN[self.pressed] * (self.load - flow.push(t, *at(t)[:2])))
+        if self.carries():
+            for way in (SIGN[self.pressed],) if self.pressed else (1, -1):
+                names.append(("let go", way))
+                margins.append(lambda t, way=way: way * (self.load - flow.push(t, *at(t)[:2])) + self.hold)
         else:
+            if self.hold:
+                names.append(("halt", None))
+                margins.append(lambda t: self.slide * at(t)[3])
             for side, place in self.walls.items():
                 names.append(("strike", side))
                 # from where it leaves a wall on, rounding isn't taken for a strike
@@ -81,12 +121,19 @@ class HousedMotion(Motion):
         name, side = names[index] if index is not None else ("end", None)
         if self.pressed and name != "leave":
             self.tell("press", **{self.name: self.pressed}, time=self.since, until=self.t)
+        if self.gripped and name != "leave":
+            self.tell("hold", time=self.since, until=self.t, z=self.z)
+        if held and name == "halt":
+            raise Unreliable("the loose mass stops beside one that is held")
         if held:
             self.let_main_go(begun, name, side)
         if name == "strike":
             self.strike(side)
         elif name == "let go":
-            self.pressed = None
+            self.pressed, self.gripped = None, False
+            self.slide = -side if self.hold else 0
+        elif name == "halt":
+            self.stop_in_housing(True)
         elif not held and name != "end":
             self.cross(name, side)
 
@@ -117,23 +164,31 @@ class HousedMotion(Motion):
 
     def push_on_still_mass(self):
         """Of both masses, if a wall has pressed the loose one up to now."""
-        return super().push_on_still_mass() + (self.mass * self.load if self.was_pressed else 0)
+        return super().push_on_still_mass() + (self.mass * self.load if self.was_carried else 0)
 
     def cross(self, name, side):
-        before, pressed = self.v, self.pressed
-        self.pressed, self.was_pressed = None, pressed
+        before, pressed, gripped = self.v, self.pressed, self.gripped
+        self.pressed, self.gripped, self.was_carried = None, False, self.carries()
+        if self.hold and name == "hit" and "R" in self.stops[side]:
+            self.slide = int(np.sign(self.w + (1 + self.stops[side]["R"]) * before))
         super().cross(name, side)
         self.w += before - self.v if name != "still" else 0
         if name == "leave":
-            self.pressed = pressed
+            self.pressed, self.gripped = pressed, gripped
+        elif gripped and self.mode in ("rest", "stick"):
+            raise Unreliable("two events at once")
+        elif gripped and self.w == 0:
+            self.stop_in_housing(False)
         elif pressed and (SIGN[pressed] * self.w > 0 or self.mode in ("rest", "stick")):
             raise Unreliable("two events at once")
         elif pressed and self.w == 0 and self.push_on(pressed) > 0:
             self.pressed, self.since = pressed, self.t
+        elif pressed and self.w == 0 and self.hold:
+            self.slide = -SIGN[pressed]
 
     def push_on(self, side):
-        """The acceleration with which a loose mass on a wall is driven into it."""
-        push = SIGN[side] * (self.load - Motion.flow(self).push(self.t, self.x, self.v))
+        """The acceleration with which a loose mass on a wall is held against leaving it."""
+        push = self.left(-SIGN[side])
         if abs(push) < 1e-6:
             raise Unreliable("whether a wall presses")
         return push
@@ -141,7 +196,7 @@ class HousedMotion(Motion):
     def strike(self, side):
         self.tell("impact", **{self.name: side}, time=self.t, w=self.w)
         self.z, R = self.walls[side], self.restitution[side]
-        before, rests = self.v, False
+        before, rests, self.slide = self.v, False, 0
         if abs(R * self.w) < SLOW:
             self.v += self.share * self.w
             rests = self.push_on(side) > 0
@@ -150,6 +205,7 @@ class HousedMotion(Motion):
         self.v = before + (1 + (0 if rests else R)) * self.share * self.w
         self.w = 0.0 if rests else -R * self.w
         self.pressed, self.since = (side, self.t) if rests else (None, self.t)
+        self.slide = -SIGN[side] if self.hold and not rests else 0
         if self.struck_on and SIGN[self.struck_on] * self.v > 0:
             raise Unreliable("two events at once")
         self.struck_on = None

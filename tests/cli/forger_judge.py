@@ -10,7 +10,7 @@ import math
 from forger_housing import HousedMotion
 from forger_motion import OTHER, Motion, Unreliable, number
 
-LAST = ("rest", "press", "stick", "chatter")  # events with an end of their own
+LAST = ("rest", "press", "stick", "hold", "chatter")  # events with an end of their own
 
 
 def period_of(scene):
@@ -140,7 +140,7 @@ class Judge:
             kind = claim["event"]
             if kind == "chatter":
                 before = at
-                while at < len(true) and (true[at]["event"] == "reversal" or self.is_impact(true[at], claim)):
+                while at < len(true) and (true[at]["event"] in ("reversal", "turn") or self.is_impact(true[at], claim)):
                     at += 1
                 rests = at < len(true) and true[at]["event"] in ("rest", "press") and self.are_alike(true[at], claim)
                 if not rests or (index and self.forgery["events"][index - 1]["event"] == "chatter"):
@@ -155,7 +155,7 @@ class Judge:
             fact = true[at]
             if kind != fact["event"] or not self.are_alike(claim, fact):
                 return f"event {index + 1}: {fact['event']}"
-            for name in {"time", "until", "v", "w", "x"} & claim.keys():
+            for name in {"time", "until", "v", "w", "x", "z"} & claim.keys():
                 if name not in fact:
                     return f"event {index + 1}: no {name}"
                 value = min(fact[name], end) if name == "until" else fact[name]

@@ -16,7 +16,7 @@ import unittest
 import numpy as np
 
 import forger_edits
-from carrying_scenes import carrying_scenes, carrying_scenes_beside_stops
+from carrying_scenes import carrying_scenes, carrying_scenes_beside_stops, rubbing_scenes
 from certified_runs import VERIFY, certificates_in, certified, random_certificates, verdicts
 from command_line import SOURCE, CommandLine
 from forger_judge import Judge, Truth, Unreliable
@@ -107,7 +107,7 @@ class Forgers(CommandLine):
     def true_certificates(self, scenes, seed):
         """Certificates of all kinds, written by clatter certify."""
         kinds = (random_scenes, pressing_scenes, compliant_scenes, rubbed_scenes, carrying_scenes)
-        kinds += (carrying_scenes_beside_stops,)
+        kinds += (carrying_scenes_beside_stops, rubbing_scenes)
         for make in kinds:
             place = self.directory / f"{make.__name__}_{seed}"
             for file in random_certificates(place, make(scenes, seed=seed)):

@@ -10,7 +10,7 @@ import os
 import shutil
 import unittest
 
-from carrying_scenes import carrying_scenes, carrying_scenes_beside_stops
+from carrying_scenes import carrying_scenes, carrying_scenes_beside_stops, rubbing_scenes
 from certified_runs import certificates_in, certified, random_certificates, verified
 from command_line import SOURCE
 from forgeries import FORGERIES, forged
@@ -208,6 +208,7 @@ class Verify(Verifying):
             ("rough", rubbed_scenes(2 * few, seed=47)),
             ("carrying", carrying_scenes(few if IS_LONG else 20, seed=48)),
             ("beside_stops", carrying_scenes_beside_stops(few if IS_LONG else 30, seed=49)),
+            ("rubbing", rubbing_scenes(few if IS_LONG else 40, seed=50)),
         ):
             for first in range(0, len(scenes), AT_ONCE):
                 self.prove_scenes(f"{name}_{first}", scenes[first : first + AT_ONCE])

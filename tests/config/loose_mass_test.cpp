@@ -51,9 +51,6 @@ TEST(LooseMass, is_on_a_mass_that_is_not_shaken_beside_stops) {
 
 TEST(LooseMass, is_refused_by_what_does_not_know_it) {
   const std::vector<Wrong> table{
-      {"[scene]\nloose_mass = 0.1\nloose_gap = 2\n", "2:1",
-       "steady motion without a force conflicts with 'loose_mass'"},
-      {"[scene]\nloose_mass = 0.1\nloose_gap = 2\n[sweep]\nf = [1, 0]\n", "5:9", "give f or base_amplitude"},
       {carried + "[observe]\nsensitivity = \"R\"\n", "6:15", "names 'R', which conflicts with 'loose_mass'"},
       {carried + "[observe]\nsensitivity = \"loose_v0\"\n", "6:15", "'loose_v0', a start"},
       {carried + "[sweep]\nloose_x0 = [0, 1]\nfollow = \"loose_x0\"\n", "7:10", "only the first point would start"},
@@ -69,8 +66,6 @@ TEST(LooseMass, is_refused_by_what_does_not_know_it) {
       {carried + "[branch]\nalong = \"nu\"\nrange = [0.5, 2]\nacross = \"loose_mass\"\nacross_range = [0, 1]\ncurve = "
                  "\"fold\"\n",
        "9:16", "range of 'loose_mass' reaches 0"},
-      {"[scene]\nloose_mass = 0.1\nloose_gap = 2\n[time]\nmode = \"transient\"\nduration = 9\n[observe]\nsection = 4\n",
-       "8:1", "a section without a force conflicts with 'loose_mass'"},
   };
   expect_all("a.toml", table);
 }
