@@ -17,10 +17,14 @@ bool is_swept(const Settings& settings, const Key& key) {
   return std::ranges::find(settings.axes, &key, &Setting::key) != settings.axes.end();
 }
 
-/// Whether a soft stop excludes a key, which is a restitution.
+/// Whether a soft stop, or wall, excludes a key, which is a restitution.
 bool is_excluded(const Settings& settings, const Key& key) {
-  const bool lower = is_soft_somewhere(settings, Side::lower), upper = is_soft_somewhere(settings, Side::upper);
-  return (key.name == "R" && (lower || upper)) || (key.name == "R_lower" && lower) || (key.name == "R_upper" && upper);
+  const auto by = [&](bool (*is_soft)(const Settings&, Side), const std::string& both) {
+    const bool lower = is_soft(settings, Side::lower), upper = is_soft(settings, Side::upper);
+    return (key.name == both && (lower || upper)) || (key.name == both + "_lower" && lower) ||
+           (key.name == both + "_upper" && upper);
+  };
+  return by(is_soft_somewhere, "R") || by(is_soft_wall_somewhere, "loose_R");
 }
 
 /// Whether the key of either stop is given, in place of that of both.
@@ -51,10 +55,19 @@ bool is_of_loose_mass(const Key& key) {
   return parameter && parameter->is_loose();
 }
 
+/// Whether a key is one of soft walls.
+bool is_of_soft_walls(const Key& key) {
+  const auto parameter = is_of_loose_mass(key) ? Parameter::of(key.name) : std::nullopt;
+  return parameter && (parameter->role() == Role::softness || parameter->role() == Role::stop_damping);
+}
+
 /// Whether the default of a key belongs in the text: not if its alternative was given.
 bool default_counts(const Settings& settings, const Key& key) {
   if (is_excluded(settings, key) || is_damped_otherwise(settings, key)) return false;
   if (is_of_loose_mass(key) && !has_loose_mass(settings)) return false;
+  const bool has_soft_wall =
+      is_soft_wall_somewhere(settings, Side::lower) || is_soft_wall_somewhere(settings, Side::upper);
+  if (is_of_soft_walls(key) && !has_soft_wall) return false;
   if (key.other == "xs" || key.other == "gap") return !settings.given_symmetric_stops();
   if (!key.other.empty()) return !key.fallback.empty() && is_half_given(settings, key.other);
   if (is_half_given(settings, key.name)) return false;

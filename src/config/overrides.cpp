@@ -180,22 +180,21 @@ void replace_half(Settings& settings, const Pair& pair, Parameter by, Parameter 
 struct KeysOfStop {
   Parameter stiffness, restitution, soft_restitution;
 };
-constexpr KeysOfStop keys_of_both[] = {{"stop_stiffness", "R", "stop_R"},
-                                       {"loose_wall_stiffness", "loose_R", "loose_wall_R"}};
+constexpr KeysOfStop of_stops{"stop_stiffness", "R", "stop_R"},
+    of_walls{"loose_wall_stiffness", "loose_R", "loose_wall_R"};
 
 /// A soft stop, or wall, has no restitution.
-void let_soft_stop_or_restitution_win(Settings& settings, Side side) {
+void let_soft_stop_or_restitution_win(Settings& settings, const KeysOfStop& keys, Side side) {
   const auto either = [side](Parameter both) {
     return std::array{both,
                       Parameter::of(std::string(both.key()) + (side == Side::lower ? "_lower" : "_upper")).value()};
   };
-  for (const KeysOfStop& keys : keys_of_both)
-    for (const Parameter soft : either(keys.stiffness))
-      for (const Parameter rigid : either(keys.restitution)) {
-        exclude(settings, soft, rigid);
-        replace(settings, soft, rigid), replace(settings, rigid, soft);
-        for (const Parameter of_soft : either(keys.soft_restitution)) replace(settings, rigid, of_soft);
-      }
+  for (const Parameter soft : either(keys.stiffness))
+    for (const Parameter rigid : either(keys.restitution)) {
+      exclude(settings, soft, rigid);
+      replace(settings, soft, rigid), replace(settings, rigid, soft);
+      for (const Parameter of_soft : either(keys.soft_restitution)) replace(settings, rigid, of_soft);
+    }
 }
 
 /// The damping of a soft stop is given in one of several ways.
@@ -242,9 +241,12 @@ void let_command_line_win(Settings& settings) {
     replace_half(settings, pair, pair.one, pair.other), replace_half(settings, pair, pair.other, pair.one);
   }
   let_one_way_to_damp_stops_win(settings, all_pairs);
-  const bool is_soft[] = {is_soft_somewhere(settings, Side::lower), is_soft_somewhere(settings, Side::upper)};
-  for (const Side side : {Side::lower, Side::upper})
-    if (is_soft[index_of(side)]) let_soft_stop_or_restitution_win(settings, side);
+  for (const auto& [keys, is_soft] :
+       {std::pair{of_stops, &is_soft_somewhere}, std::pair{of_walls, &is_soft_wall_somewhere}}) {
+    const bool lower = is_soft(settings, Side::lower), upper = is_soft(settings, Side::upper);
+    if (lower) let_soft_stop_or_restitution_win(settings, keys, Side::lower);
+    if (upper) let_soft_stop_or_restitution_win(settings, keys, Side::upper);
+  }
   for (const Parameter one : dampings)
     for (const Parameter other : dampings)
       if (one.index() < other.index()) exclude(settings, one, other);

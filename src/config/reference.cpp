@@ -81,9 +81,13 @@ std::string example_axis(const Key& key) {
 
 /// A command that sets a key.
 std::string set_command(std::string_view section, const Key& key, const std::string& value) {
+  constexpr std::size_t columns = 80;
   const bool plain = value.find_first_of(" (") == std::string::npos;
-  return "  clatter run mine.toml --set " + std::string(section) + (section.empty() ? "" : ".") +
-         std::string(key.name) + '=' + (plain ? value : '\'' + value + '\'') + '\n';
+  const std::string command = "  clatter run mine.toml", set = " --set " + std::string(section) +
+                                                               (section.empty() ? "" : ".") + std::string(key.name) +
+                                                               '=' + (plain ? value : '\'' + value + '\'');
+  const bool fits = command.size() + set.size() <= columns;
+  return command + (fits ? "" : " \\\n   ") + set + '\n';
 }
 
 }  // namespace

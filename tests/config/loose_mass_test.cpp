@@ -110,7 +110,14 @@ TEST(LooseMass, has_friction_in_the_unit_of_the_force) {
 TEST(LooseMass, is_read_in_both_sections) {
   const Config scene = parse_config(carried + "loose_load = -0.5\nloose_R = 0.5\nloose_x0 = 1\nloose_v0 = 2\n", "a");
   const LooseMass& loose = problem_at(scene.sweep, 0).loose;
-  EXPECT_EQ(loose, (LooseMass{0.1, -2, 2, 0.5, 0.5, -0.5, 1, 2}));
+  EXPECT_EQ(loose, (LooseMass{.ratio = 0.1,
+                              .lower = -2,
+                              .upper = 2,
+                              .restitution_lower = 0.5,
+                              .restitution_upper = 0.5,
+                              .load = -0.5,
+                              .place = 1,
+                              .velocity = 2}));
   const Config machine = parse_config(
       "[machine]\nmass = 0.5\nstiffness = 32\nforce = 1\nfrequency = 2\nloose_mass = \"50 g\"\nloose_lower = \"-3 "
       "mm\"\n"

@@ -114,10 +114,13 @@ Events told_events(const std::vector<motion::Event>& events) {
       case Told::chatter:
         return Kind::chatter;
       case Told::touch:
+      case Told::wall_touch:
         return Kind::touch;
       case Told::renewal:
+      case Told::wall_renewal:
         return Kind::renewal;
       case Told::separation:
+      case Told::wall_separation:
         return Kind::separation;
       case Told::stick:
         return Kind::stick;
@@ -168,6 +171,7 @@ Events told_events(const MachineRun& run) {
         told.push_back({Kind::reversal, Side::none, e.time, 0, e.time, e.place, 0, 0, e.pull});
         break;
       case Simulated::touch:
+      case Simulated::wall_touch:
         if (e.before != 0) told.push_back({Kind::touch, side, e.time, e.before});
         break;
       case Simulated::renewal:

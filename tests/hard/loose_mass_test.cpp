@@ -54,8 +54,14 @@ point::Problem problem_of(const ShakenScene& scene) {
   problem.start = {scene.x - b * std::sin(scene.phase), scene.v - b * scene.frequency * std::cos(scene.phase),
                    scene.phase};
   problem.shaking.base = b;
-  problem.loose = {scene.loose_mass,   scene.wall_lower, scene.wall_upper, scene.wall_R_lower,
-                   scene.wall_R_upper, scene.loose_load, scene.z,          scene.w};
+  problem.loose = {.ratio = scene.loose_mass,
+                   .lower = scene.wall_lower,
+                   .upper = scene.wall_upper,
+                   .restitution_lower = scene.wall_R_lower,
+                   .restitution_upper = scene.wall_R_upper,
+                   .load = scene.loose_load,
+                   .place = scene.z,
+                   .velocity = scene.w};
   static_cast<Scene&>(problem) = in_shaken_frame(problem);
   return problem;
 }

@@ -48,6 +48,11 @@ class Told {
       case Kind::hold:
         if constexpr (requires { watcher.hold(event); }) watcher.hold(event);
         break;
+      case Kind::wall_touch:
+      case Kind::wall_renewal:
+      case Kind::wall_separation:
+        if constexpr (requires { watcher.soft_wall(event); }) watcher.soft_wall(event);
+        break;
     }
   }
 

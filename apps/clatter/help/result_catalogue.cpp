@@ -40,7 +40,7 @@ config::Config config_with_all(std::string_view scene) {
   auto& observe = config.sweep.problem.observe;
   observe.loose_extrema = observe.loose_harmonics = observe.loose_trajectory = observe.loose_section =
       observe.loose_stability = observe.loose_attractor = observe.loose_sensitivity = observe.wall_impacts =
-          observe.wall_energy = true;
+          observe.of_soft_walls = observe.wall_energy = true;
   config.sweep.follow = 0, config.sweep.direction = sweep::Direction::both;
   return config;
 }

@@ -120,21 +120,27 @@ std::vector<KeyAndNumber> computed_scene(const point::Problem& problem) {
   std::vector<KeyAndNumber> scene{
       {"h", o.damping}, {"f", o.forcing},           {"nu", o.frequency},         {"phase", problem.start.phase},
       {"load", o.load}, {"stiffness", o.stiffness}, {"stop_lower", stops.lower}, {"stop_upper", stops.upper}};
-  const auto add_stop = [&](const std::string& prefix, const std::string& R, const Stops& of, Side side) {
-    const std::string end = side == Side::lower ? "_lower" : "_upper";
-    const bool lower = side == Side::lower;
-    if (!is_soft(of, side)) return scene.push_back({R + end, lower ? of.restitution_lower : of.restitution_upper});
-    scene.push_back({prefix + "_stiffness" + end, lower ? of.stiffness_lower : of.stiffness_upper});
-    scene.push_back({prefix + "_damping" + end, lower ? of.damping_lower : of.damping_upper});
+  struct Keys {
+    std::string_view stiffness, damping, R;
   };
-  for (const Side side : {Side::lower, Side::upper}) add_stop("stop", "R", stops, side);
+  constexpr Keys of_stops[] = {{"stop_stiffness_lower", "stop_damping_lower", "R_lower"},
+                               {"stop_stiffness_upper", "stop_damping_upper", "R_upper"}},
+                 of_walls[] = {{"loose_wall_stiffness_lower", "loose_wall_damping_lower", "loose_R_lower"},
+                               {"loose_wall_stiffness_upper", "loose_wall_damping_upper", "loose_R_upper"}};
+  const auto add_stop = [&](const Keys& keys, const Stops& of, Side side) {
+    const bool lower = side == Side::lower;
+    if (!is_soft(of, side)) return scene.push_back({keys.R, lower ? of.restitution_lower : of.restitution_upper});
+    scene.push_back({keys.stiffness, lower ? of.stiffness_lower : of.stiffness_upper});
+    scene.push_back({keys.damping, lower ? of.damping_lower : of.damping_upper});
+  };
+  for (const Side side : {Side::lower, Side::upper}) add_stop(of_stops[index_of(side)], stops, side);
   if (has_friction(problem.friction))
     scene.insert(scene.end(),
                  {{"friction", problem.friction.kinetic}, {"friction_static", problem.friction.static_level}});
   if (const LooseMass& loose = problem.loose; has_loose_mass(loose)) {
     scene.insert(scene.end(),
                  {{"loose_mass", loose.ratio}, {"loose_lower", loose.lower}, {"loose_upper", loose.upper}});
-    for (const Side side : {Side::lower, Side::upper}) add_stop("loose_wall", "loose_R", walls_of(loose), side);
+    for (const Side side : {Side::lower, Side::upper}) add_stop(of_walls[index_of(side)], walls_of(loose), side);
     scene.insert(scene.end(), {{"loose_load", loose.load},
                                {"loose_friction", loose.friction},
                                {"loose_friction_static", loose.friction_static},

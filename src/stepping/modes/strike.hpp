@@ -51,7 +51,7 @@ template <class Loop, class Stage, class Number>
 template <class Loop, class State>
 [[nodiscard]] bool lies_pressed(Loop& loop, const State& state) {
   const auto& loose = state.loose;
-  if (loose.wall == Side::none || loose.within || loose.place != 0 || loose.speed != 0 || loose.released) return false;
+  if (!loop.walls().lies_on_wall(loose) || loose.speed != 0 || loose.released) return false;
   const auto into = into_wall(loop, loose.wall, state);
   return into > 0 || (into == 0 && !acceleration(loop, state));
 }
