@@ -46,16 +46,19 @@ namespace clatter::steady {
 /// with Q = P + 2 h x, where z lies between the walls, so that x follows from s but for some width. Once both rates are
 /// positive for the least x, and the greatest, that s allows, they stay so, since each grows with the other.
 [[nodiscard]] inline bool both_escape(const Scene& scene, const motion::State<double>& state) {
-  const auto& [o, stops, start, shaking, friction, loose] = scene;
+  const Oscillator& o = scene.oscillator;
+  const Stops& stops = scene.stops;
+  const LooseMass& loose = scene.loose;
   if (!(o.stiffness <= 0) || std::isinf(loose.lower) || std::isinf(loose.upper)) return false;
   if (has_soft_wall(loose)) return false;  // beyond which z may lie anywhere
   constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-  const auto [z, w] = motion::place_in_housing(state, loose);
+  const motion::PlaceInHousing<double> place = motion::place_in_housing(state, loose);
+  const double z = place.z, w = place.w;
   const double eps = loose.ratio, both = 1 + eps, widest = std::max(std::abs(loose.lower), std::abs(loose.upper));
   const double momentum = both * state.v + eps * w, sum = both * state.x + eps * z;
-  const double damper = 2 * o.damping, against = std::abs(o.forcing) + friction.static_level;
+  const double damper = 2 * o.damping, against = std::abs(o.forcing) + scene.friction.static_level;
   const double place_size = std::abs(sum) + eps * widest;
-  const double speed_size = both * (std::abs(state.v) + std::abs(start.velocity)) +
+  const double speed_size = both * (std::abs(state.v) + std::abs(scene.start.velocity)) +
                             eps * (std::abs(w) + std::abs(loose.velocity));  // impacts leave the rounding of the first
   const double force_size = std::abs(o.load) + std::abs(eps * loose.load) - o.stiffness * place_size + against;
   const auto departs = [&](int sign, double stop, double near_wall, double far_wall) {

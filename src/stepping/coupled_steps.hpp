@@ -5,6 +5,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "math/bernstein.hpp"
 #include "motion/coupled_arc.hpp"
@@ -38,11 +39,12 @@ class CoupledSteps {
     auto stepper = odeint::make_dense_output(tolerance_ * size_, tolerance_, odeint::runge_kutta_dopri5<Values>());
     const Values begin{start.offset, start.v, from.offset, from.w};
     stepper.initialize(begin, 0.0, std::fmin(horizon, std::pow(tolerance_, 0.2) / coupling.rate(any) / 2));
-    const auto [first, length] = stepper.do_step(equation);
+    const std::pair<double, double> interval = stepper.do_step(equation);
+    const double length = interval.second;  // from 0 on
     const Values end = stepper.current_state();
     Values third, two_thirds, rate, rate_end;
     stepper.calc_state(length / 3, third), stepper.calc_state(2 * length / 3, two_thirds);
-    equation(begin, rate, first), equation(end, rate_end, length);
+    equation(begin, rate, 0.0), equation(end, rate_end, length);
     const auto over = [&](std::size_t i) {
       Bernstein<double> y = quintic(length, {begin[i], rate[i]}, {end[i], rate_end[i]}, {third[i], two_thirds[i]});
       const double at_begin = y[0];
