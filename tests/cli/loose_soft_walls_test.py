@@ -7,11 +7,12 @@ import math
 import random
 import unittest
 
+import h5py
 import numpy as np
 
 import loose_friction_test as friction
 import loose_mass_relations_test as relations
-from loose_mass_test import LooseMass
+from loose_mass_test import LooseMass, text_of
 
 
 def softened(scene, seed):
@@ -117,6 +118,22 @@ class Results(LooseMass):
             self.assertEqual(data["wall_impacts_per_period"][i], counted)
         self.assertGreater(data["wall_contact_fraction"].min(), 0)
         self.assertGreater(data["wall_contact_force_max"].min(), 0)
+
+    def test_without_a_force_a_load_comes_to_rest_in_the_wall_that_balances_it(self):
+        eps, kappa, load = 0.3, 30.0, -0.4
+        scene = {"f": 0.0, "h": 0.1, "x0": 0.5, "loose_mass": eps, "loose_lower": -0.5, "loose_upper": 0.7}
+        scene |= {"loose_load": load, "loose_wall_stiffness": kappa, "loose_wall_damping": 0.2}
+        data = self.observed(scene, {}, {"extrema": True})
+        self.assertEqual(data["status"], 0)
+        np.testing.assert_allclose((data["z_min"], data["z_max"]), -0.5 + eps * load / kappa, atol=1e-9)
+        np.testing.assert_allclose((data["x_min"], data["x_max"]), eps * load, atol=1e-9)
+
+    def test_the_configuration_of_a_file_is_read_again(self):
+        text = text_of(self.SCENE | {"loose_wall_R": 0.6}, self.TIME, {"extrema": True})
+        one = self.run_clatter(text, "one")
+        with h5py.File(one) as file:
+            again = self.run_clatter(file.attrs["config"], "again")
+        self.assertEqual(one.read_bytes(), again.read_bytes())
 
     def test_a_start_may_lie_beyond_a_soft_wall(self):
         data = self.observed(self.SCENE | {"loose_x0": 0.7}, self.TIME, {"trajectory": 5})
