@@ -14,6 +14,12 @@ namespace {
 point::Problem between(const point::Problem& from, const point::Problem& to, double share) {
   point::Problem problem = to;
   const auto mix = [share](double a, double b) { return a == b ? b : a + share * (b - a); };
+  const auto mix_laws = [&](const Restitution<double>& a, const Restitution<double>& b) {
+    Restitution<double> law = b;
+    law.R = mix(a.R, b.R), law.exponent = mix(a.exponent, b.exponent), law.reference = mix(a.reference, b.reference);
+    law.below = mix(a.below, b.below), law.unit = mix(a.unit, b.unit);
+    return law;
+  };
   const Oscillator &a = from.oscillator, &b = to.oscillator;
   Oscillator& o = problem.oscillator;
   o.damping = mix(a.damping, b.damping), o.forcing = mix(a.forcing, b.forcing);
@@ -23,8 +29,8 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
                       mix(from.friction.static_level, to.friction.static_level)};
   problem.stops = {mix(from.stops.lower, to.stops.lower),
                    mix(from.stops.upper, to.stops.upper),
-                   mix(from.stops.restitution_lower, to.stops.restitution_lower),
-                   mix(from.stops.restitution_upper, to.stops.restitution_upper),
+                   mix_laws(from.stops.restitution_lower, to.stops.restitution_lower),
+                   mix_laws(from.stops.restitution_upper, to.stops.restitution_upper),
                    mix(from.stops.stiffness_lower, to.stops.stiffness_lower),
                    mix(from.stops.stiffness_upper, to.stops.stiffness_upper),
                    mix(from.stops.damping_lower, to.stops.damping_lower),
@@ -33,8 +39,8 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
   problem.loose = {.ratio = mix(one.ratio, other.ratio),
                    .lower = mix(one.lower, other.lower),
                    .upper = mix(one.upper, other.upper),
-                   .restitution_lower = mix(one.restitution_lower, other.restitution_lower),
-                   .restitution_upper = mix(one.restitution_upper, other.restitution_upper),
+                   .restitution_lower = mix_laws(one.restitution_lower, other.restitution_lower),
+                   .restitution_upper = mix_laws(one.restitution_upper, other.restitution_upper),
                    .load = mix(one.load, other.load),
                    .friction = mix(one.friction, other.friction),
                    .friction_static = mix(one.friction_static, other.friction_static)};

@@ -22,7 +22,7 @@ Json json_of(const Stops& stops, Side side) {
     stop["stiffness"] = upper ? stops.stiffness_upper : stops.stiffness_lower;
     stop["damping"] = upper ? stops.damping_upper : stops.damping_lower;
   } else {
-    stop["R"] = upper ? stops.restitution_upper : stops.restitution_lower;
+    stop["R"] = (upper ? stops.restitution_upper : stops.restitution_lower).R;
   }
   return stop;
 }
@@ -37,14 +37,14 @@ void add_friction(Json& json, double kinetic, double static_level) {
 Json json_of(const LooseMass& loose) {
   const bool are_alike = loose.restitution_lower == loose.restitution_upper;
   Json json{{"mass", loose.ratio}, {"load", loose.load}};
-  if (are_alike) json["R"] = loose.restitution_lower;
+  if (are_alike) json["R"] = loose.restitution_lower.R;
   const auto add_wall = [&](const char* name, double position, double R) {
     if (!std::isfinite(position)) return;
     json[name] = {{"position", position}};
     if (!are_alike) json[name]["R"] = R;
   };
   add_friction(json, loose.friction, loose.friction_static);
-  add_wall("lower", loose.lower, loose.restitution_lower), add_wall("upper", loose.upper, loose.restitution_upper);
+  add_wall("lower", loose.lower, loose.restitution_lower.R), add_wall("upper", loose.upper, loose.restitution_upper.R);
   return json;
 }
 

@@ -209,6 +209,10 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
     point.without = Without::soft_wall;
     return point;
   }
+  if (!has_constant_restitution(problem)) {
+    point.without = Without::law_of_speed;
+    return point;
+  }
   const bool is_steady = known.status == Status::periodic;
   if (is_steady && problem.oscillator.forcing == 0) {
     point.without = Without::force;

@@ -21,6 +21,8 @@ std::string reason_of(const CertifiedPoint& point) {
       return "cut within a chatter";
     case Without::soft_wall:
       return "with a soft wall of the loose mass";
+    case Without::law_of_speed:
+      return "with a restitution that depends on the speed";
     case Without::loose_friction:
       return "with friction in a chatter of the loose mass";
     case Without::both_held:

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "config/consistency.hpp"
+#include "config/restitution.hpp"
 #include "config/suggestion.hpp"
 
 namespace clatter::config {
@@ -67,6 +68,10 @@ void check_start_period(const Settings& settings) {
   for (const Parameter parameter : std::array<Parameter, 3>{"h", "f", "load"}) demand(parameter, 0);
   demand("stiffness", 1);
   for (const Parameter parameter : std::array<Parameter, 3>{"R", "R_lower", "R_upper"}) demand(parameter, 1);
+  for (const Parameter parameter : std::array<Parameter, 3>{"R_below", "R_below_lower", "R_below_upper"})
+    demand(parameter, 0);
+  if (has_speed_table(settings, "R"))
+    fail(start->key_location, "'start_period' beside a restitution by speed; give x0 and v0 in its place");
   for (const Parameter parameter :
        std::array<Parameter, 3>{"stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper"})
     demand(parameter, std::numeric_limits<double>::infinity());

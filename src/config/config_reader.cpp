@@ -8,6 +8,7 @@
 #include "config/config_text.hpp"
 #include "config/consistency.hpp"
 #include "config/parsed_config.hpp"
+#include "config/restitution.hpp"
 #include "config/settings.hpp"
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
@@ -93,7 +94,10 @@ sweep::GivenProblem given_problem(const Settings& settings) {
   problem.is_si = settings.is_si();
   if (problem.is_si) problem.oscillator.stiffness = problem.oscillator.frequency = 0;  // none without a key
   for (const Setting& given : settings.values)
-    if (given.key->section == settings.scene_section) set(problem, parameter_of(given), std::get<double>(given.value));
+    if (const double* const value = std::get_if<double>(&given.value);
+        value != nullptr && given.key->section == settings.scene_section)
+      set(problem, parameter_of(given), *value);
+  set_speed_tables(settings, problem);
   return problem;
 }
 
@@ -248,6 +252,7 @@ Config config_of(ParsedConfig parsed) {
   const AxisGroups groups = group_axes(settings);
   check_housing(settings, groups);
   check_soft_walls(settings, groups);
+  check_restitutions(settings, groups);
   check_stops_and_start(settings, groups);
   check_soft_stops(settings, groups);
   check_sensitivity(settings);

@@ -6,6 +6,7 @@
 
 #include "config/consistency.hpp"
 #include "config/keys.hpp"
+#include "config/restitution.hpp"
 #include "config/settings.hpp"
 #include "config/unit.hpp"
 #include "config/wrapped.hpp"
@@ -17,14 +18,14 @@ bool is_swept(const Settings& settings, const Key& key) {
   return std::ranges::find(settings.axes, &key, &Setting::key) != settings.axes.end();
 }
 
-/// Whether a soft stop, or wall, excludes a key, which is a restitution.
+/// Whether a soft stop, or wall, or a table by speed excludes a key, which is a restitution.
 bool is_excluded(const Settings& settings, const Key& key) {
   const auto by = [&](bool (*is_soft)(const Settings&, Side), const std::string& both) {
     const bool lower = is_soft(settings, Side::lower), upper = is_soft(settings, Side::upper);
     return (key.name == both && (lower || upper)) || (key.name == both + "_lower" && lower) ||
            (key.name == both + "_upper" && upper);
   };
-  return by(is_soft_somewhere, "R") || by(is_soft_wall_somewhere, "loose_R");
+  return by(is_soft_somewhere, "R") || by(is_soft_wall_somewhere, "loose_R") || has_speed_table(settings, key.name);
 }
 
 /// Whether the key of either stop is given, in place of that of both.
@@ -61,6 +62,12 @@ bool is_of_soft_walls(const Key& key) {
   return parameter && (parameter->role() == Role::softness || parameter->role() == Role::stop_damping);
 }
 
+/// Whether a key says how a restitution depends on the speed: not at all, unless it is given.
+bool is_law_of_speed(const Key& key) {
+  const auto parameter = describes_scene(key.section) ? Parameter::of(key.name) : std::nullopt;
+  return parameter && parameter->role() == Role::law_of_speed;
+}
+
 /// Whether the default of a key belongs in the text: not if its alternative was given.
 bool default_counts(const Settings& settings, const Key& key) {
   if (is_excluded(settings, key) || is_damped_otherwise(settings, key)) return false;
@@ -69,8 +76,9 @@ bool default_counts(const Settings& settings, const Key& key) {
       is_soft_wall_somewhere(settings, Side::lower) || is_soft_wall_somewhere(settings, Side::upper);
   if (is_of_soft_walls(key) && !has_soft_wall) return false;
   if (key.other == "xs" || key.other == "gap") return !settings.given_symmetric_stops();
-  if (!key.other.empty()) return !key.fallback.empty() && is_half_given(settings, key.other);
-  if (is_half_given(settings, key.name)) return false;
+  if (!key.other.empty())
+    return !key.fallback.empty() && (is_half_given(settings, key.other) || has_speed_table(settings, key.other));
+  if (is_half_given(settings, key.name) || is_law_of_speed(key)) return false;
   if (key.name == "x0" || key.name == "v0") return !settings.given("start_period");
   if (key.name == "damping") return !settings.given("damping_ratio") && !settings.given("quality");
   return key.has_default();

@@ -53,6 +53,44 @@ Key key_of(Parameter parameter, bool is_si) {
   return key;
 }
 
+/// The tables of restitution by speed, each with the key that it takes the place of.
+constexpr std::string_view loose_walls = "f = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_gap = 1.9\n",
+                           machine_stops = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\n",
+                           machine_walls =
+                               "mass = 0.25\nstiffness = 800.0\nforce = 4.0\nfrequency = 9.0\n"
+                               "loose_mass = 0.01\nloose_gap = 8e-3\n",
+                           some_speeds = "0: 0.9, 0.5: 0.8, 2: 0.6",
+                           machine_speeds = "0: 0.9, 0.5 m/s: 0.8, 2 m/s: 0.6";
+constexpr Key table_of(std::string_view section, std::string_view name, std::string_view help,
+                       std::string_view restitution, std::string_view beside) {
+  return with(beside, or_as(restitution,
+                            Key{section, name, text, "", section == "machine" ? machine_speeds : some_speeds, help}));
+}
+constexpr std::string_view
+    of_both =
+        "restitution by impact speed, in place of R: speeds and their R, straight lines between, "
+        "constant beyond",
+    of_both_walls =
+        "restitution of the loose mass by its speed in the housing, in place of loose_R: speeds "
+        "and their R, straight lines between, constant beyond";
+constexpr std::array keys_of_tables{
+    table_of("scene", "R_of_speed", of_both, "R", "xs = 1.0\n"),
+    table_of("scene", "R_of_speed_lower", "that of the lower stop, in place of R_lower", "R_lower", "xs = 1.0\n"),
+    table_of("scene", "R_of_speed_upper", "that of the upper stop, in place of R_upper", "R_upper", "xs = 1.0\n"),
+    table_of("scene", "loose_R_of_speed", of_both_walls, "loose_R", loose_walls),
+    table_of("scene", "loose_R_of_speed_lower", "that of the lower wall, in place of loose_R_lower", "loose_R_lower",
+             loose_walls),
+    table_of("scene", "loose_R_of_speed_upper", "that of the upper wall, in place of loose_R_upper", "loose_R_upper",
+             loose_walls),
+    table_of("machine", "R_of_speed", of_both, "R", machine_stops),
+    table_of("machine", "R_of_speed_lower", "that of the lower stop, in place of R_lower", "R_lower", machine_stops),
+    table_of("machine", "R_of_speed_upper", "that of the upper stop, in place of R_upper", "R_upper", machine_stops),
+    table_of("machine", "loose_R_of_speed", of_both_walls, "loose_R", machine_walls),
+    table_of("machine", "loose_R_of_speed_lower", "that of the lower wall, in place of loose_R_lower", "loose_R_lower",
+             machine_walls),
+    table_of("machine", "loose_R_of_speed_upper", "that of the upper wall, in place of loose_R_upper", "loose_R_upper",
+             machine_walls)};
+
 /// The keys along which a motion can be followed: none is the friction of a loose mass.
 std::vector<std::string_view> keys_to_follow() {
   std::vector<std::string_view> keys;
@@ -157,6 +195,13 @@ const std::array keys_after_observe{
         AllowedRange{.low = 0, .high = 9}},
 };
 
+/// The key of a parameter, and behind the restitution of a stop its tables by speed.
+void add_scene_key(Parameter parameter, bool is_si, std::vector<Key>& keys) {
+  keys.push_back(key_of(parameter, is_si));
+  for (const Key& table : keys_of_tables)
+    if (table.other == parameter.key() && table.section == keys.back().section) keys.push_back(table);
+}
+
 /// The keys of [observe] are those of the observables.
 const std::vector<Key> all_keys = [] {
   std::vector<Key> keys;
@@ -165,7 +210,7 @@ const std::vector<Key> all_keys = [] {
   for (const bool is_si : {false, true})
     for (const Parameter parameter : all_parameters)
       if (parameter.is_in(is_si ? "machine" : "scene") && !parameter.row().is_with_unit)
-        keys.push_back(key_of(parameter, is_si));
+        add_scene_key(parameter, is_si, keys);
   add(keys_before_observe);
   add(observables::All::keys()), add(keys_after_observe);
   return keys;
@@ -194,7 +239,7 @@ std::string describe(const AllowedRange& range) {
   const std::string zero = range.or_zero ? "0 or " : "";
   if (range.high == infinity) return zero + (range.open ? "> " : ">= ") + low;
   const std::string high = bound_text(range.high);
-  if (range.open) return "> " + low + " and < " + high;
+  if (range.open) return (range.or_zero ? ">= " : "> ") + low + " and < " + high;
   return range.above ? "> " + low + " and <= " + high : zero + low + " ... " + high;
 }
 

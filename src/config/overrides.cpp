@@ -178,10 +178,13 @@ void replace_half(Settings& settings, const Pair& pair, Parameter by, Parameter 
 
 /// The keys of the softness and the restitutions of a stop, or of a wall of a loose mass.
 struct KeysOfStop {
-  Parameter stiffness, restitution, soft_restitution;
+  Parameter stiffness, soft_restitution;
+  std::array<Parameter, 4> restitution;
 };
-constexpr KeysOfStop of_stops{"stop_stiffness", "R", "stop_R"},
-    of_walls{"loose_wall_stiffness", "loose_R", "loose_wall_R"};
+constexpr KeysOfStop of_stops{"stop_stiffness", "stop_R", {"R", "R_exponent", "R_reference_speed", "R_below"}},
+    of_walls{"loose_wall_stiffness",
+             "loose_wall_R",
+             {"loose_R", "loose_R_exponent", "loose_R_reference_speed", "loose_R_below"}};
 
 /// A soft stop, or wall, has no restitution.
 void let_soft_stop_or_restitution_win(Settings& settings, const KeysOfStop& keys, Side side) {
@@ -190,11 +193,12 @@ void let_soft_stop_or_restitution_win(Settings& settings, const KeysOfStop& keys
                       Parameter::of(std::string(both.key()) + (side == Side::lower ? "_lower" : "_upper")).value()};
   };
   for (const Parameter soft : either(keys.stiffness))
-    for (const Parameter rigid : either(keys.restitution)) {
-      exclude(settings, soft, rigid);
-      replace(settings, soft, rigid), replace(settings, rigid, soft);
-      for (const Parameter of_soft : either(keys.soft_restitution)) replace(settings, rigid, of_soft);
-    }
+    for (const Parameter of_both : keys.restitution)
+      for (const Parameter rigid : either(of_both)) {
+        exclude(settings, soft, rigid);
+        replace(settings, soft, rigid), replace(settings, rigid, soft);
+        for (const Parameter of_soft : either(keys.soft_restitution)) replace(settings, rigid, of_soft);
+      }
 }
 
 /// The damping of a soft stop is given in one of several ways.

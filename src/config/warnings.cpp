@@ -183,6 +183,14 @@ bool no_upper_wall(const Settings& settings) {
 bool no_soft_lower_wall(const Settings& settings) { return !is_soft_wall_somewhere(settings, Side::lower); }
 bool no_soft_upper_wall(const Settings& settings) { return !is_soft_wall_somewhere(settings, Side::upper); }
 bool no_soft_wall(const Settings& settings) { return no_soft_lower_wall(settings) && no_soft_upper_wall(settings); }
+bool no_power(const Settings& settings) {
+  return everywhere(settings, "R_exponent", zero) && everywhere(settings, "R_exponent_lower", zero) &&
+         everywhere(settings, "R_exponent_upper", zero);
+}
+bool no_loose_power(const Settings& settings) {
+  return everywhere(settings, "loose_R_exponent", zero) && everywhere(settings, "loose_R_exponent_lower", zero) &&
+         everywhere(settings, "loose_R_exponent_upper", zero);
+}
 bool no_stops(const Settings& settings) { return no_lower(settings) && no_upper(settings); }
 bool no_impacts(const Settings& settings) { return no_stops(settings) && !has_loose_mass(settings); }
 
@@ -240,6 +248,8 @@ constexpr std::string_view or_stops = "give stops";
 constexpr std::string_view no_harmonic = "without harmonics", or_harmonics = "write e.g. harmonics = 3";
 constexpr std::string_view only_moreau = "without method = \"moreau\"", or_moreau = "write that in [integrator]";
 
+constexpr std::string_view no_exponent = "without an exponent", or_exponent = "give that, too";
+
 constexpr Rule rules[] = {
     {"scene", "nu", unforced, no_force, or_force},
     {"machine", "frequency", unforced, no_force, "give a force, stop_amplitude or base_amplitude"},
@@ -248,6 +258,21 @@ constexpr Rule rules[] = {
     {"scene", "R", no_stops, "without stops", or_stops},
     {"scene", "R_lower", no_lower, "without a lower stop", "give stop_lower"},
     {"scene", "R_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"scene", "R_exponent", no_stops, "without stops", or_stops},
+    {"scene", "R_exponent_lower", no_lower, "without a lower stop", "give stop_lower"},
+    {"scene", "R_exponent_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"scene", "R_below", no_stops, "without stops", or_stops},
+    {"scene", "R_below_lower", no_lower, "without a lower stop", "give stop_lower"},
+    {"scene", "R_below_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"scene", "R_of_speed", no_stops, "without stops", or_stops},
+    {"scene", "R_of_speed_lower", no_lower, "without a lower stop", "give stop_lower"},
+    {"scene", "R_of_speed_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"scene", "R_reference_speed", no_power, no_exponent, or_exponent},
+    {"scene", "R_reference_speed_lower", no_power, no_exponent, or_exponent},
+    {"scene", "R_reference_speed_upper", no_power, no_exponent, or_exponent},
+    {"scene", "loose_R_reference_speed", no_loose_power, no_exponent, or_exponent},
+    {"scene", "loose_R_reference_speed_lower", no_loose_power, no_exponent, or_exponent},
+    {"scene", "loose_R_reference_speed_upper", no_loose_power, no_exponent, or_exponent},
     {"scene", "stop_stiffness", no_stops, "without stops", or_stops},
     {"scene", "stop_stiffness_lower", no_lower, "without a lower stop", "give stop_lower"},
     {"scene", "stop_stiffness_upper", no_upper, "without an upper stop", "give stop_upper"},

@@ -124,7 +124,7 @@ void LaneView::load(const motion::ArcConstants<double, arcs>& constants, const S
     load_arc(constants, stops);
   }
   at(block.stop_lower) = at(block.lower), at(block.stop_upper) = at(block.upper);
-  at(block.restitution_lower) = stops.restitution_lower, at(block.restitution_upper) = stops.restitution_upper;
+  at(block.restitution_lower) = stops.restitution_lower.R, at(block.restitution_upper) = stops.restitution_upper.R;
   at(block.period) = constants.period;
   at(block.start_sine) = std::sin(scene_->start.phase), at(block.start_cosine) = std::cos(scene_->start.phase);
   at(block.impacts) = 0, at(block.itinerary) = 0;

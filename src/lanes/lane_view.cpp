@@ -60,7 +60,8 @@ bool accepts(const Scene& scene) {
   const bool moves = o.forcing != 0 && !has_friction(scene.friction) && o.damping >= 0 &&
                      o.damping <= 0.9 * rate_of(o) && holds(scene) && forcing_of(o) == Forcing::regular;
   const double amplitude = steady_response(o).amplitude, room = stops.upper - stops.lower;
-  const bool bounces = std::min(stops.restitution_lower, stops.restitution_upper) >= 1.0 / 16;
+  const auto bounces_on = [](const Restitution<double>& law) { return law.is_constant() && law.R >= 1.0 / 16; };
+  const bool bounces = bounces_on(stops.restitution_lower) && bounces_on(stops.restitution_upper);
   return moves && yields(scene, Side::lower) && yields(scene, Side::upper) && o.frequency >= 1e-3 &&
          o.frequency <= 1e3 && bounces && amplitude > 1e-100 && amplitude < 1e100 && room > amplitude / 64 &&
          std::min(std::abs(stops.lower), std::abs(stops.upper)) < 1e100;

@@ -11,7 +11,7 @@ SettleTask<E>::SettleTask(const point::WorkItem& item)
     : item_(item),
       fallback_({item_.problem, stops_in_reach(item_.problem.stops, item_.effects), limits_of(item_.problem)}, false),
       log_area_(E.soft ? 0.0
-                       : 2 * std::log(std::max(loop().stops().restitution_lower, loop().stops().restitution_upper))) {}
+                       : 2 * std::log(std::max(loop().stops().restitution_lower.R, loop().stops().restitution_upper.R))) {}
 
 template <Effects E>
 std::optional<SettledPoint<E>> SettleTask<E>::begin(LaneView& lane) {

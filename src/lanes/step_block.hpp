@@ -196,7 +196,7 @@ class StepBlock {
     g.good = g.good & (g.time > zero) & (g.time < length) & (low >= row(lanes_.lower) + bound_.rounding) &
              (high <= row(lanes_.upper) - bound_.rounding);
     if constexpr (E.soft) g.good = g.good & phases_.keeps_ahead(here_, at, g.time, bound_, change);
-    const Restitution<V> law{select(upper, row(lanes_.restitution_upper), row(lanes_.restitution_lower))};
+    const ConstantRestitution<V> law{select(upper, row(lanes_.restitution_upper), row(lanes_.restitution_lower))};
     Mask reverses = g.crosses;
     if constexpr (E.soft) reverses = reverses - phases_.change_at(upper);
     const V before = at.v, jump = select(reverses, law.jump(before), zero);

@@ -24,6 +24,9 @@ namespace clatter::motion {
 /// velocities go on there, so that D = 1. It is kept times a power of two, so that nothing overflows.
 class LooseTangent {
  public:
+  /// The law of a wall.
+  [[nodiscard]] const Restitution<double>& law(Side wall) const { return rule_.law(wall); }
+
   explicit LooseTangent(const Scene& scene)
       : stops_(scene.stops), loose_(scene.loose), rule_(loose_), is_rough_(has_loose_friction(loose_)) {}
 
@@ -251,11 +254,14 @@ class LooseTangent {
     const double drag = 2 * rule_.ratio * (loose_.load - load_);  // by how much friction in the housing turns round
     const double a = acceleration(main.place, main.before), a_after = acceleration(main.place, main.after) - drag,
                  towards = alone_ - a;
-    const double kick = -rule_.share() * rule_.law_for(w).jump(1.0), back = kick / rule_.ratio;  // of x' and -y' by z'
+    const Restitution<double>& law = rule_.law_for(w);
+    const double jump = rule_.share() * (1 + law.share(w));       // of x' by z'
+    const double kick = rule_.share() * (1 - law.derivative(w));  // its derivative, and
+    const double back = kick / rule_.ratio;                       // that of -y'
     const Row z = combined(1, map_[2], -1, map_[0]), dw = combined(1, map_[3], -1, map_[1]);
-    add(map_[0], kick, z);
+    add(map_[0], jump, z);
     add(map_[1], kick, dw), add(map_[1], (a_after - a - kick * towards) / w, z);
-    add(map_[2], -back, z);
+    add(map_[2], -jump / rule_.ratio, z);
     add(map_[3], -back, dw), add(map_[3], (back * towards + drag / rule_.ratio) / w, z);
     expect(combined(-1 / w, z, 0, z), a_after, alone_ + drag / rule_.ratio);
     sticks_ = false, rescale();

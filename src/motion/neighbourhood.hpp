@@ -90,6 +90,7 @@ class Neighbourhood {
   }
   [[nodiscard]] static Stops in_units(Stops stops, double rate) {
     stops.stiffness_lower /= rate * rate, stops.stiffness_upper /= rate * rate;
+    stops.restitution_lower.scale_speeds(1 / rate), stops.restitution_upper.scale_speeds(1 / rate);
     return stops;
   }
 
@@ -132,7 +133,7 @@ class Neighbourhood {
   [[nodiscard]] bool rebound(const Rebound& impact) {
     const Stop<double> stop = stop_at<double>(stops_, impact.side);
     const double u = std::abs(impact.before), R = stop.law.share(impact.before),
-                 force = force_ - field_.k * impact.place;
+                 slope = -stop.law.derivative(impact.before), force = force_ - field_.k * impact.place;
     const double a_before = force - 2 * field_.h * impact.before,
                  a_after = force - 2 * friction_ - 2 * field_.h * impact.after;
     const double a = std::max(std::abs(a_before), std::abs(a_after)),
@@ -144,10 +145,15 @@ class Neighbourhood {
                  d = size();
     const double slowest = u - near.acceleration * (2 * d / u) - near.growth * d, s = x / slowest;  // |time between|
     const double missed = v * s + (near.acceleration + c * near.growth * d) * s * s / 2;            // of x + u s = 0
-    const double turn = (R * a_before + a_after) / impact.before;
-    const double rest_x = R * missed + near.acceleration * s * s / 2;
-    const double rest_v = std::abs(turn) * missed + (1 + R) * near.jerk * s * s / 2 + R * c * near.growth * d * s;
-    const Jacobian<double> saltation{-R, 0, turn, -R};
+    const double turn = (slope * a_before + a_after) / impact.before;
+    const double spread = v + near.acceleration * s + c * near.growth * d * s;  // of the speeds at the impact
+    const auto bend = stop.law.bend(u - spread, u + spread);
+    if (!bend) return false;
+    const double rest_x =
+        R * missed + near.acceleration * s * s / 2 + (std::abs(slope - R) + *bend * spread / 2) * spread * s;
+    const double rest_v = std::abs(turn) * missed + (1 + slope) * near.jerk * s * s / 2 +
+                          slope * c * near.growth * d * s + *bend * spread * spread / 2;
+    const Jacobian<double> saltation{-R, 0, turn, -slope};
     first_order_ = first_order_.mapped(saltation), remainder_ = remainder_.mapped(saltation);
     const double rest = norm(rest_x, rest_v);
     remainder_.add(Ellipse::disc(rest + c * near.growth * s * (first_order_.size() + remainder_.size() + rest)));

@@ -19,7 +19,7 @@ struct WallRule {
 
   template <class Other>
   explicit WallRule(const BasicLooseMass<Other>& loose)
-      : ratio(loose.ratio), lower{Number(loose.restitution_lower)}, upper{Number(loose.restitution_upper)} {}
+      : ratio(loose.ratio), lower(loose.restitution_lower), upper(loose.restitution_upper) {}
 
   [[nodiscard]] const Restitution<Number>& law(Side wall) const { return wall == Side::upper ? upper : lower; }
   /// That of the wall that a loose mass meets with z' = w.

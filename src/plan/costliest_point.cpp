@@ -112,12 +112,12 @@ double impacts_without_loss(const point::Problem& scene) {
   if (has_loose_mass(scene.loose)) return std::min(scene.time.max_impacts, bounces_in_housing(scene));
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
-  if (!(stops.restitution_lower >= 1 || stops.restitution_upper >= 1)) return 0;
+  const auto keeps = [&](Side side) { return !is_soft(stops, side) && !takes_energy(stops, side); };
+  if (!keeps(Side::lower) && !keeps(Side::upper)) return 0;
   if (scene.time.mode == steady::Mode::steady && o.forcing == 0)
     return 0;  // its period is known in closed form, or it comes to a standstill
   const Requirements needs = requirements_of(scene, duration_of(scene.time));
-  const bool lower = needs.effects.lower && !is_soft(stops, Side::lower) && stops.restitution_lower >= 1,
-             upper = needs.effects.upper && !is_soft(stops, Side::upper) && stops.restitution_upper >= 1;
+  const bool lower = needs.effects.lower && keeps(Side::lower), upper = needs.effects.upper && keeps(Side::upper);
   const double push = std::abs(o.forcing);
   double impacts = 0;
   const auto bounces = [&](double position, double pressing) {

@@ -123,6 +123,14 @@ Reason stop_reason(const point::Problem& scene, const Requirements& needs, bool 
           displacement(scene) + " may reach " + compared(reach, " >= ", gap) + bound_contents(needs.effects)};
 }
 
+/// A law of restitution in words.
+std::string described(const Restitution<double>& law) {
+  const std::string from = law.below > 0 ? " from the speed " + text(law.below) + " on" : "";
+  if (law.table) return "R by the speed, " + text(law.share_at_rest()) + " at rest" + from;
+  if (law.exponent == 0) return "R = " + text(law.R) + from;
+  return "R = " + text(law.R) + " at the speed " + text(law.reference) + ", exponent " + text(law.exponent) + from;
+}
+
 Reason dissipation_reason(const point::Problem& scene, const Effects& effects) {
   if (!effects.stops()) return {"dissipation", false, "no stop in reach"};
   const Stops& stops = scene.stops;
@@ -130,10 +138,9 @@ Reason dissipation_reason(const point::Problem& scene, const Effects& effects) {
     return {"dissipation", effects.dissipation,
             effects.dissipation ? "contact takes energy" : "stop_damping = 0: contact keeps the energy"};
   if (!effects.dissipation) return {"dissipation", false, "R = 1: impacts keep the speed"};
-  const double R_lower = stops.restitution_lower, R_upper = stops.restitution_upper;
-  if (R_lower == R_upper || !effects.lower || !effects.upper)
-    return {"dissipation", true, "R = " + text(effects.lower ? R_lower : R_upper)};
-  return {"dissipation", true, "R = " + text(R_lower) + " and " + text(R_upper)};
+  const std::string lower = described(stops.restitution_lower), upper = described(stops.restitution_upper);
+  if (lower == upper || !effects.lower || !effects.upper) return {"dissipation", true, effects.lower ? lower : upper};
+  return {"dissipation", true, lower + " and " + upper};
 }
 
 /// Stops that are springs and dampers.
@@ -167,13 +174,13 @@ Reason loose_reason(const point::Problem& scene) {
   const LooseMass& loose = scene.loose;
   const Oscillator& o = scene.oscillator;
   const Stops walls = walls_of(loose);
-  const auto law_of = [&](Side side) {
+  const auto described_at = [&](Side side) {
     const bool lower = side == Side::lower;
-    if (!is_soft(walls, side)) return "R = " + text(lower ? walls.restitution_lower : walls.restitution_upper);
+    if (!is_soft(walls, side)) return described(law_of(walls, side));
     return "stiffness = " + text(lower ? walls.stiffness_lower : walls.stiffness_upper) +
            ", damping = " + text(lower ? walls.damping_lower : walls.damping_upper);
   };
-  const std::string lower = law_of(Side::lower), upper = law_of(Side::upper);
+  const std::string lower = described_at(Side::lower), upper = described_at(Side::upper);
   std::string why = "loose_mass = " + text(loose.ratio) + ", walls at " + text(loose.lower) + " and " +
                     text(loose.upper) + ", " + lower + (upper == lower ? "" : " and " + upper);
   const double middle = equilibrium_of(o), y = scene.start.displacement + loose.place - middle;

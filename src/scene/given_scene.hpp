@@ -88,10 +88,11 @@ template <class Number, class Unit>
     if (!is_always_zero(damper)) zeta += damper * (T / (2 * m * sqrt(kappa * mass)));
   };
   auto& stops = scene.stops;
+  auto& loose = scene.loose;
+  for (Restitution<Number>* const law : laws_of(scene)) law->scale_speeds(T);
   const Number one(1);
   soften(stops.stiffness_lower, stops.damping_lower, given.stop_damper_lower, one);
   soften(stops.stiffness_upper, stops.damping_upper, given.stop_damper_upper, one);
-  auto& loose = scene.loose;
   if (has_loose_mass(loose)) {
     const Number reduced = reduced_mass(loose);
     soften(loose.stiffness_lower, loose.damping_lower, given.wall_damper_lower, reduced);

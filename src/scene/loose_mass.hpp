@@ -15,8 +15,8 @@ struct BasicLooseMass {
   Number ratio{0.0};                                       ///< eps, its mass over the main mass, >= 0; 0: there is none
   Number lower{-std::numeric_limits<double>::infinity()};  ///< z at the lower wall; -inf: none
   Number upper{std::numeric_limits<double>::infinity()};   ///< z at the upper wall; +inf: none
-  Number restitution_lower{1.0};                           ///< R of the lower wall, 0 ... 1
-  Number restitution_upper{1.0};                           ///< R of the upper wall, 0 ... 1
+  Restitution<Number> restitution_lower{};                 ///< of the lower wall
+  Restitution<Number> restitution_upper{};                 ///< of the upper wall
   Number stiffness_lower{std::numeric_limits<double>::infinity()};  ///< kappa of the lower wall, > 0; inf: rigid
   Number stiffness_upper{std::numeric_limits<double>::infinity()};  ///< kappa of the upper wall, > 0; inf: rigid
   Number damping_lower{0.0};    ///< zeta of the lower wall, by the reduced mass eps/(1 + eps), >= 0; only of a soft one

@@ -12,17 +12,18 @@ inline namespace scene {
 /// How a parameter acts on a scene.
 enum class Role : std::uint8_t {
   other,
-  start,        ///< it says where the motion begins
-  damping,      ///< of the damper, in one of several ways
-  drive,        ///< amplitude of the force
-  load,         ///< constant force
-  shaking,      ///< amplitude of stops or base
-  friction,     ///< a level of dry friction
-  loose_load,   ///< constant acceleration of a loose mass
-  position,     ///< of a stop, or of a wall of a loose mass
-  restitution,  ///< of a rigid stop, or of such walls
-  softness,     ///< stiffness of a soft stop
-  stop_damping  ///< damping of a soft stop, in one of several ways
+  start,         ///< it says where the motion begins
+  damping,       ///< of the damper, in one of several ways
+  drive,         ///< amplitude of the force
+  load,          ///< constant force
+  shaking,       ///< amplitude of stops or base
+  friction,      ///< a level of dry friction
+  loose_load,    ///< constant acceleration of a loose mass
+  position,      ///< of a stop, or of a wall of a loose mass
+  restitution,   ///< of a rigid stop, or of such walls
+  law_of_speed,  ///< how a restitution depends on the speed
+  softness,      ///< stiffness of a soft stop
+  stop_damping   ///< damping of a soft stop, in one of several ways
 };
 
 /// A key in one of [scene] and [machine].
@@ -58,6 +59,10 @@ namespace detail {
 template <class Number, auto part, auto member>
 constexpr Number& in(BasicGivenScene<Number>& scene) {
   return scene.*part.*member;
+}
+template <class Number, auto part, auto law, auto member>
+constexpr Number& of_law(BasicGivenScene<Number>& scene) {
+  return scene.*part.*law.*member;
 }
 template <class Number, auto member>
 constexpr Number& at(BasicGivenScene<Number>& scene) {

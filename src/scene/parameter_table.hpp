@@ -8,6 +8,7 @@
 
 #include "scene/loose_rows.hpp"
 #include "scene/parameter_row.hpp"
+#include "scene/restitution_rows.hpp"
 #include "scene/stop_rows.hpp"
 
 namespace clatter {
@@ -216,7 +217,9 @@ constexpr auto parameter_rows() {
           .role = Role::start,
           .place = at<Number, &Given::start_period>},
   };
-  return joined(before_stops, stop_rows<Number>(), after_stops, loose_rows<Number>());
+  const auto by_speed = restitution_rows<Number>(), loose_by_speed = loose_restitution_rows<Number>();
+  return joined(before_stops, stop_rows<Number>(), by_speed[0], by_speed[1], by_speed[2], after_stops,
+                loose_rows<Number>(), loose_by_speed[0], loose_by_speed[1], loose_by_speed[2]);
 }
 
 }  // namespace scene

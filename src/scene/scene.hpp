@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -36,25 +37,38 @@ struct BasicScene {
 };
 using Scene = BasicScene<double>;
 
+/// The laws of restitution of a scene: of its stops, and of the walls of its loose mass.
+template <class Number>
+[[nodiscard]] std::array<Restitution<Number>*, 4> laws_of(BasicScene<Number>& scene) {
+  return {&scene.stops.restitution_lower, &scene.stops.restitution_upper, &scene.loose.restitution_lower,
+          &scene.loose.restitution_upper};
+}
+
+/// Whether no restitution depends on the speed.
+[[nodiscard]] inline bool has_constant_restitution(Scene scene) {
+  return std::ranges::all_of(laws_of(scene), [](const auto* law) { return law->is_constant(); });
+}
+
 /// A scene with numbers of another type, that hold those of its own.
 template <class Number, class Other>
 [[nodiscard]] BasicScene<Number> with_numbers(const BasicScene<Other>& scene) {
   const auto& [oscillator, stops, start, shaking, friction, loose] = scene;
   const auto n = [](const Other& number) { return Number(number); };
+  const auto law = [](const Restitution<Other>& of) { return Restitution<Number>(of); };
   BasicScene<Number> same;
   same.oscillator = {n(oscillator.damping), n(oscillator.forcing), n(oscillator.frequency), n(oscillator.load),
                      n(oscillator.stiffness)};
   same.stops = {
-      n(stops.lower),           n(stops.upper),           n(stops.restitution_lower), n(stops.restitution_upper),
-      n(stops.stiffness_lower), n(stops.stiffness_upper), n(stops.damping_lower),     n(stops.damping_upper)};
+      n(stops.lower),           n(stops.upper),           law(stops.restitution_lower), law(stops.restitution_upper),
+      n(stops.stiffness_lower), n(stops.stiffness_upper), n(stops.damping_lower),       n(stops.damping_upper)};
   same.start = {n(start.displacement), n(start.velocity), n(start.phase)};
   same.shaking = {n(shaking.stops), n(shaking.base), n(shaking.lead), n(shaking.phase)};
   same.friction = {n(friction.kinetic), n(friction.static_level)};
   same.loose = {.ratio = n(loose.ratio),
                 .lower = n(loose.lower),
                 .upper = n(loose.upper),
-                .restitution_lower = n(loose.restitution_lower),
-                .restitution_upper = n(loose.restitution_upper),
+                .restitution_lower = law(loose.restitution_lower),
+                .restitution_upper = law(loose.restitution_upper),
                 .stiffness_lower = n(loose.stiffness_lower),
                 .stiffness_upper = n(loose.stiffness_upper),
                 .damping_lower = n(loose.damping_lower),

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "math/number.hpp"
+#include "scene/restitution.hpp"
 
 namespace clatter {
 inline namespace scene {
@@ -26,8 +27,8 @@ template <class Number>
 struct BasicStops {
   Number lower{-std::numeric_limits<double>::infinity()};           ///< position of the lower stop; -inf: none
   Number upper{std::numeric_limits<double>::infinity()};            ///< position of the upper stop; +inf: none
-  Number restitution_lower{1.0};                                    ///< R of the lower stop, 0 ... 1
-  Number restitution_upper{1.0};                                    ///< R of the upper stop, 0 ... 1
+  Restitution<Number> restitution_lower{};                          ///< of the lower stop
+  Restitution<Number> restitution_upper{};                          ///< of the upper stop
   Number stiffness_lower{std::numeric_limits<double>::infinity()};  ///< kappa of the lower stop, > 0; inf: rigid
   Number stiffness_upper{std::numeric_limits<double>::infinity()};  ///< kappa of the upper stop, > 0; inf: rigid
   Number damping_lower{0.0};  ///< zeta, damping ratio of the lower stop, >= 0; only of a soft one
@@ -61,42 +62,25 @@ template <class Number = double>
   return stops;
 }
 
-/// Newton's law of restitution on a stop (eq. 4), for every number type: the loop and its derivative, the general
-/// methods, the lanes and all bounds take it from here.
+/// The law of the stop on a side.
 template <class Number>
-struct Restitution {
-  Number R;  ///< 0 ... 1
-
-  /// The share of the speed that an impact leaves.
-  [[nodiscard]] const Number& share(const Number& /*before*/) const { return R; }
-  /// That of the slowest impacts, to which the flights of a chatter tend.
-  [[nodiscard]] const Number& share_at_rest() const { return R; }
-  /// Whether an impact takes speed, so that flights on a stop that presses the mass become ever shorter.
-  [[nodiscard]] bool loses() const { return R < 1; }
-
-  /// Velocity after an impact: 0 - R v rather than -R v, so that R = 0 leaves no negative zero.
-  [[nodiscard]] Number after(const Number& before) const { return Number(0) - share(before) * before; }
-  /// Change of the velocity by an impact.
-  [[nodiscard]] Number jump(const Number& before) const { return -(Number(1) + share(before)) * before; }
-  /// Energy that an impact takes, per unit mass.
-  [[nodiscard]] Number lost(const Number& before) const {
-    return (1 - share(before)) * (1 + share(before)) * before * before / 2;
-  }
-  /// Derivative of the velocity after by the velocity before.
-  [[nodiscard]] Number derivative(const Number& /*before*/) const { return -R; }
-};
+[[nodiscard]] const Restitution<Number>& law_of(const BasicStops<Number>& stops, Side side) {
+  return side == Side::upper ? stops.restitution_upper : stops.restitution_lower;
+}
+/// The same with numbers of another type.
+template <class Number, class Given = double>
+[[nodiscard]] Restitution<Number> restitution_at(const BasicStops<Given>& stops, Side side) {
+  return Restitution<Number>(law_of(stops, side));
+}
 
 /// Whether contacts with a stop take energy: a soft one by its damper, a rigid one by its restitution.
 [[nodiscard]] inline bool takes_energy(const Stops& stops, Side side) {
-  const bool lower = side == Side::lower;
-  if (is_soft(stops, side)) return !((lower ? stops.damping_lower : stops.damping_upper) <= 0);
-  return !((lower ? stops.restitution_lower : stops.restitution_upper) >= 1);
+  if (is_soft(stops, side)) return !((side == Side::lower ? stops.damping_lower : stops.damping_upper) <= 0);
+  return law_of(stops, side).takes_energy();
 }
-
-/// That of the stop on a side.
-template <class Number, class Given = double>
-[[nodiscard]] Restitution<Number> restitution_at(const BasicStops<Given>& stops, Side side) {
-  return {Number(side == Side::upper ? stops.restitution_upper : stops.restitution_lower)};
+/// Whether the slowest contacts do.
+[[nodiscard]] inline bool takes_energy_at_rest(const Stops& stops, Side side) {
+  return is_soft(stops, side) ? takes_energy(stops, side) : law_of(stops, side).loses();
 }
 
 }  // namespace scene

@@ -64,7 +64,7 @@ class FreeSearch {
     if (I::effects.soft) return false;  // its period is no angle between two contacts
     const auto loses = [&](Side side) {
       const auto stop = motion::stop_at<double>(stops, side);
-      return std::isfinite(stop.position) && stop.law.loses();
+      return std::isfinite(stop.position) && stop.law.takes_energy();
     };
     return scene_.oscillator.damping == 0 && !loses(Side::lower) && !loses(Side::upper);
   }

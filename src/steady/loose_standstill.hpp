@@ -62,7 +62,7 @@ class LooseStandstill {
     const LooseMass& loose = scene.loose;
     const auto at = [&](Side side) {
       const auto takes = [side](const Stops& of) {
-        return std::isfinite(side == Side::upper ? of.upper : of.lower) && takes_energy(of, side);
+        return std::isfinite(side == Side::upper ? of.upper : of.lower) && takes_energy_at_rest(of, side);
       };
       return takes(stops) || takes(walls_of(loose));
     };

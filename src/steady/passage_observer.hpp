@@ -25,8 +25,9 @@ class BasicPassageObserver {
       : BasicPassageObserver(stops, Tangent(stops)) {}
   /// `tangent` is a derivative that hasn't begun.
   BasicPassageObserver(const Stops& stops, const Tangent& tangent)
-      : log_lower_(2 * std::log(restitution_at<double>(stops, Side::lower).share_at_rest())),
-        log_upper_(2 * std::log(restitution_at<double>(stops, Side::upper).share_at_rest())),
+      : stops_(stops),
+        log_lower_(2 * std::log(stops.restitution_lower.R)),
+        log_upper_(2 * std::log(stops.restitution_upper.R)),
         anew_(tangent),
         tangent_(tangent) {}
 
@@ -125,9 +126,21 @@ class BasicPassageObserver {
   /// four numbers, of which a press takes two.
   [[nodiscard]] double log_of_area(const motion::Event& event) const {
     using Kind = motion::Event::Kind;
-    if (event.kind == Kind::impact) return event.side == Side::upper ? log_upper_ : log_lower_;
-    if (event.kind == Kind::strike) return 2 * std::log(std::abs(event.after / event.before));
+    if (event.kind == Kind::impact) {
+      const Restitution<double>& law = law_of(stops_, event.side);
+      if (law.is_constant()) return event.side == Side::upper ? log_upper_ : log_lower_;
+      return std::log(law.share(event.before) * -law.derivative(event.before));
+    }
+    if (event.kind == Kind::strike) return log_of_strike(event);
     return event.kind == Kind::reversal ? std::log(event.a_after / event.a_before) : 0.0;
+  }
+  [[nodiscard]] double log_of_strike(const motion::Event& strike) const {
+    const double share = std::abs(strike.after / strike.before);
+    if constexpr (std::is_same_v<Tangent, motion::LooseTangent>) {
+      const Restitution<double>& law = anew_.law(strike.side);
+      if (!law.is_constant()) return std::log(share * -law.derivative(strike.before));
+    }
+    return 2 * std::log(share);
   }
   [[nodiscard]] static constexpr std::uint64_t with(std::uint64_t itinerary, std::uint64_t mark) {
     return (itinerary + mark) * 0x9e3779b97f4a7c15u;
@@ -160,7 +173,8 @@ class BasicPassageObserver {
   }
   void see(double x, double v) { passage_.size = std::max({passage_.size, std::abs(x), std::abs(v)}); }
 
-  double log_lower_, log_upper_;  ///< logarithm of R^2, the factor by which an impact shrinks areas
+  Stops stops_;
+  double log_lower_, log_upper_;  ///< logarithm of R^2, by which an impact shrinks areas if R is constant
   Tangent anew_, tangent_;
   Passage passage_;
   bool differentiates_ = false;

@@ -129,7 +129,7 @@ std::vector<KeyAndNumber> computed_scene(const point::Problem& problem) {
                                {"loose_wall_stiffness_upper", "loose_wall_damping_upper", "loose_R_upper"}};
   const auto add_stop = [&](const Keys& keys, const Stops& of, Side side) {
     const bool lower = side == Side::lower;
-    if (!is_soft(of, side)) return scene.push_back({keys.R, lower ? of.restitution_lower : of.restitution_upper});
+    if (!is_soft(of, side)) return scene.push_back({keys.R, law_of(of, side).R});
     scene.push_back({keys.stiffness, lower ? of.stiffness_lower : of.stiffness_upper});
     scene.push_back({keys.damping, lower ? of.damping_lower : of.damping_upper});
   };
