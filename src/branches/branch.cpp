@@ -5,12 +5,12 @@
 #include <deque>
 #include <functional>
 
-#include "branches/equations/housing_flight.hpp"
 #include "branches/halt_end.hpp"
 #include "branches/resting_branch.hpp"
 #include "branches/simultaneous_end.hpp"
 #include "branches/start/start.hpp"
 #include "branches/walk/halves.hpp"
+#include "branches/walk/rebound_threshold.hpp"
 #include "branches/walk/special_points.hpp"
 #include "branches/walk/violation.hpp"
 
@@ -225,7 +225,9 @@ class Follower {
                     const std::optional<std::size_t>& from) {
     std::optional<Narrowed> between = narrowed(equations, walk, step);
     if (!between) return end_without_step(equations, record_.point(equations, walk.here()), walk.here());
-    if (between->violated.kind == Violation::Kind::at_once) return end_at_once(equations, walk, *between, from);
+    if (const auto kind = between->violated.kind;
+        kind == Violation::Kind::at_once || kind == Violation::Kind::no_rebound)
+      return end_at_once(equations, walk, *between, from);
     const auto end = nearest_end(any_equations(), equations, *between, symmetric_,
                                  std::max(step, 1e-2 * settings_.largest_step), settings_.tolerance);
     double length = between->last_good.arclength - walk.here().arclength;
@@ -259,24 +261,30 @@ class Follower {
     const int heading = touch.last_good.tangent.back() < 0 ? -1 : 1;
     const bool may_gain = !touch.turns && !touch.appears && !touch.halts && settings_.follows(Birth::graze);
     if (!is_new && may_gain) wait_for_sooner(waiting_, record_, at, touch.event, symmetric_, special, generation_);
-    if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
+    if (!is_new) return no_longer_waits(waiting_, special, last.orbit);       // this is the branch that waits there
+    if (touch.appears && impact_without_rebound(exact->scene, with)) return;  // the one that appears is too slow
     if (touch.halts && jumps_to_stick(exact->scene, without, touch.event)) return;
     if (touch.turns)
       waiting_.push_back({at.scene, turned(with, touch.event), {}, special, generation_});
     else if (touch.appears)
       waiting_.push_back(with_contact({at.scene, with, {}, special, generation_}, touch.event, heading));
     else
-      wait_without(at.scene, without, special, heading);
+      wait_without(waiting_, {at.scene, without, {}, special, generation_}, symmetric_, heading);
     if (auto each = may_gain ? with_each(at, touch.event, symmetric_, special, generation_) : std::nullopt)
       waiting_.push_back(*std::move(each));
   }
 
   /// The branch ends within a step, as two events fall together, one of each mass: which of them comes first changes
-  /// the motion beyond.
+  /// the motion beyond. Or as an impact is about to be the first one without a rebound.
   void end_at_once(const OrbitEquations& equations, const Walk& walk, const Narrowed& between,
                    const std::optional<std::size_t>& from) {
     const bool born = special_between(equations, walk, between.last_good.arclength - walk.here().arclength, from);
     if (born) return record_.end(record_.point(equations, between.last_good), "born");
+    if (between.violated.kind == Violation::Kind::no_rebound) {
+      const BranchPoint last = record_.point(equations, point_at_threshold(equations, walk, between));
+      record_.add(last), record_.note(SpecialKind::rebound_threshold, last);
+      return record_.end(last, std::string(name_of(SpecialKind::rebound_threshold)));
+    }
     end_at_once(record_.point(equations, point_at_once(equations, walk, between).value_or(between.last_good)));
   }
   void end_at_once(const BranchPoint& last) {
@@ -312,18 +320,7 @@ class Follower {
       if (!settings_.follows(Birth::graze)) return record_.leave_out(special);
       waiting_.push_back(with_contact({at.scene, at.orbit, {}, special, generation_}, exact.event));
     }
-    wait_without(at.scene, at.orbit.without(exact.event), special);
-  }
-
-  void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special, int came = 0) {
-    if (is_anywhere(scene, orbit) || (has_loose_mass(scene.loose) && !orbit.meets_walls())) return;  // so may that
-    if (orbit.size() == 0 && orbit.pressed == Side::none) {
-      if (scene.oscillator.stiffness == 0) return;  // it has no place of its own
-      orbit = Orbit{};
-    }
-    // without it the motion may repeat sooner, or be symmetric
-    waiting_.push_back({scene, orbit.half_if_same(1e-6, symmetric_), {}, special, generation_});
-    waiting_.back().came = came;
+    wait_without(waiting_, {at.scene, at.orbit.without(exact.event), {}, special, generation_}, symmetric_);
   }
 
   StartProblem problem_;

@@ -13,6 +13,7 @@
 #include "branches/record.hpp"
 #include "branches/simultaneous_end.hpp"
 #include "branches/walk/change_on_curve.hpp"
+#include "branches/walk/rebound_threshold.hpp"
 #include "branches/walk/resonant_graze.hpp"
 #include "branches/walk/touch.hpp"
 
@@ -174,6 +175,8 @@ class CurveFollower {
     if (between->violated.kind == Violation::Kind::at_once)
       return end_at(SpecialKind::simultaneous,
                     point_of(equations, point_at_once(equations, walk, *between).value_or(between->last_good)));
+    if (between->violated.kind == Violation::Kind::no_rebound)
+      return end_at(SpecialKind::rebound_threshold, point_of(equations, point_at_threshold(equations, walk, *between)));
     if (const auto change = change_on_curve(any_equations(), equations, walk, step, *between))
       return end_in_change(equations, walk, between->last_good, *change);
     const std::optional<Touch> touch = touch_of(equations, *between);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "branches/equations/housing_flight.hpp"
 #include "branches/start/start.hpp"
 #include "branches/walk/graze.hpp"
 #include "branches/walk/halves.hpp"
@@ -58,6 +59,19 @@ Waiting with_contact(Waiting branch, std::size_t graze, int came) {
   branch.came = came;
   if (!is_impact(branch.orbit.events[graze].kind)) branch.opens = {Opening::Kind::contact, graze};
   return branch;
+}
+
+void wait_without(std::deque<Waiting>& waiting, Waiting without, bool symmetric_scene, int came) {
+  const FollowedScene& scene = without.scene;
+  const Orbit& orbit = without.orbit;
+  if (is_anywhere(scene, orbit) || (has_loose_mass(scene.loose) && !orbit.meets_walls())) return;  // so may that
+  if (orbit.size() == 0 && orbit.pressed == Side::none) {
+    if (scene.oscillator.stiffness == 0) return;  // it has no place of its own
+    without.orbit = Orbit{};
+  }
+  // without it the motion may repeat sooner, or be symmetric
+  without.orbit = without.orbit.half_if_same(1e-6, symmetric_scene), without.came = came;
+  waiting.push_back(std::move(without));
 }
 
 Waiting daughter_at(const BranchPoint& at, std::size_t special, std::int64_t generation) {

@@ -37,6 +37,10 @@ void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Or
 /// A branch that begins with the impact that grazes, or with a contact with a soft stop there.
 [[nodiscard]] Waiting with_contact(Waiting branch, std::size_t graze, int came = 0);
 
+/// Motion without the impact that grazes, or the contact, waits to be followed from there, unless that has no place.
+/// `came`: as of Waiting.
+void wait_without(std::deque<Waiting>& waiting, Waiting without, bool symmetric_scene, int came = 0);
+
 /// A branch that is born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
 [[nodiscard]] Waiting daughter_at(const BranchPoint& at, std::size_t special, std::int64_t generation);
 

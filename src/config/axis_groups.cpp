@@ -17,8 +17,7 @@ std::size_t axis_of(const Settings& settings, const Setting& setting, std::strin
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::string message = names_key(setting, name) + ", which is no axis of [sweep]";
-  const auto replaced =
-      std::ranges::find_if(settings.replaced, [&](const Replaced& one) { return one.parameter.key() == name; });
+  const auto replaced = std::ranges::find_if(settings.replaced, [&](const Replaced& one) { return one.key == name; });
   if (replaced != settings.replaced.end())
     fail(setting.location,
          message + " with " + to_string(replaced->by) + "; add --set sweep." + std::string(setting.key->name) + "=''");

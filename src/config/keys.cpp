@@ -67,25 +67,25 @@ constexpr Key table_of(std::string_view section, std::string_view name, std::str
                             Key{section, name, text, "", section == "machine" ? machine_speeds : some_speeds, help}));
 }
 constexpr std::string_view
-    of_both =
+    by_speed =
         "restitution by impact speed, in place of R: speeds and their R, straight lines between, "
         "constant beyond",
-    of_both_walls =
+    by_wall_speed =
         "restitution of the loose mass by its speed in the housing, in place of loose_R: speeds "
         "and their R, straight lines between, constant beyond";
 constexpr std::array keys_of_tables{
-    table_of("scene", "R_of_speed", of_both, "R", "xs = 1.0\n"),
+    table_of("scene", "R_of_speed", by_speed, "R", "xs = 1.0\n"),
     table_of("scene", "R_of_speed_lower", "that of the lower stop, in place of R_lower", "R_lower", "xs = 1.0\n"),
     table_of("scene", "R_of_speed_upper", "that of the upper stop, in place of R_upper", "R_upper", "xs = 1.0\n"),
-    table_of("scene", "loose_R_of_speed", of_both_walls, "loose_R", loose_walls),
+    table_of("scene", "loose_R_of_speed", by_wall_speed, "loose_R", loose_walls),
     table_of("scene", "loose_R_of_speed_lower", "that of the lower wall, in place of loose_R_lower", "loose_R_lower",
              loose_walls),
     table_of("scene", "loose_R_of_speed_upper", "that of the upper wall, in place of loose_R_upper", "loose_R_upper",
              loose_walls),
-    table_of("machine", "R_of_speed", of_both, "R", machine_stops),
+    table_of("machine", "R_of_speed", by_speed, "R", machine_stops),
     table_of("machine", "R_of_speed_lower", "that of the lower stop, in place of R_lower", "R_lower", machine_stops),
     table_of("machine", "R_of_speed_upper", "that of the upper stop, in place of R_upper", "R_upper", machine_stops),
-    table_of("machine", "loose_R_of_speed", of_both_walls, "loose_R", machine_walls),
+    table_of("machine", "loose_R_of_speed", by_wall_speed, "loose_R", machine_walls),
     table_of("machine", "loose_R_of_speed_lower", "that of the lower wall, in place of loose_R_lower", "loose_R_lower",
              machine_walls),
     table_of("machine", "loose_R_of_speed_upper", "that of the upper wall, in place of loose_R_upper", "loose_R_upper",
@@ -262,7 +262,8 @@ const Key* find_key(std::string_view section, std::string_view name) {
 std::vector<std::string_view> key_names(std::string_view section) {
   std::vector<std::string_view> names_of_section;
   for (const Key& key : all_keys) {
-    if (find_key(section, key.name) == &key) names_of_section.push_back(key.name);
+    const bool is_no_axis = section == "sweep" && describes_scene(key.section) && key.kind == text;
+    if (find_key(section, key.name) == &key && !is_no_axis) names_of_section.push_back(key.name);
   }
   return names_of_section;
 }

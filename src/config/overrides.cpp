@@ -8,6 +8,7 @@
 #include "config/config.hpp"
 #include "config/consistency.hpp"
 #include "config/parsed_config.hpp"
+#include "config/restitution.hpp"
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
 #include "storage/utf8.hpp"
@@ -79,7 +80,7 @@ void remove(Settings& settings, Parameter parameter) {
 
 void note(Settings& settings, Parameter parameter, const SourceLocation& by, const SourceLocation& former,
           const std::string& remark = "") {
-  settings.replaced.push_back({parameter, by, former, remark, 0});
+  settings.replaced.push_back({parameter.key(), by, former, remark, 0});
 }
 
 /// Lets the command line's setting of a parameter, in the scene's section or [sweep], replace that of the other section
@@ -251,6 +252,7 @@ void let_command_line_win(Settings& settings) {
     if (lower) let_soft_stop_or_restitution_win(settings, keys, Side::lower);
     if (upper) let_soft_stop_or_restitution_win(settings, keys, Side::upper);
   }
+  let_speed_table_or_restitution_win(settings);
   for (const Parameter one : dampings)
     for (const Parameter other : dampings)
       if (one.index() < other.index()) exclude(settings, one, other);
@@ -263,8 +265,8 @@ void let_command_line_win(Settings& settings) {
 }
 
 std::string to_string(const Replaced& replaced) {
-  return to_string(replaced.by) + " in place of " + quoted_name(replaced.parameter) + ", " +
-         to_string(replaced.former) + replaced.remark;
+  return to_string(replaced.by) + " in place of " + in_quotes(replaced.key) + ", " + to_string(replaced.former) +
+         replaced.remark;
 }
 
 }  // namespace clatter::config

@@ -36,6 +36,7 @@ source that holds one of them after a blank needs quotes. An axis has at most
 
 /// The default in words.
 std::string fallback(const Key& key) {
+  if (key.kind == Kind::text && !key.other.empty()) return "none";
   const std::string other(key.other);
   if (!other.empty())
     return std::string(key.fallback.empty() ? "none" : key.fallback) + ", or " + other + " if that is given";
@@ -130,7 +131,7 @@ std::string key_reference(const Key& key) {
   std::string text = std::string(key.name) + location + "\n  " + wrapped(key.help, 2) + "  " +
                      wrapped(permitted_and_default(key), 2) + "\nExample\n" + indented(key_example(key)) + '\n' +
                      set_command(key.section, key, std::string(key.example));
-  if (describes_scene(key.section))
+  if (describes_scene(key.section) && key.kind == Kind::number)
     text +=
         "\nAs an axis of a sweep\n" + indented(axis_example(key)) + '\n' + set_command("sweep", key, example_axis(key));
   return text;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
+#include "config/keys.hpp"
 #include "config/placed.hpp"
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
@@ -67,11 +69,13 @@ double number_in(const Setting& given, std::string_view part, bool is_speed) {
 
 void check_knots(const Setting& given, const std::vector<SpeedTable::Knot>& knots) {
   for (const auto& [speed, R] : knots) {
-    if (!(speed >= 0) || !std::isfinite(speed)) refuse_table(given, "the speed " + number_text(speed) + " is below 0");
+    if (!(speed >= 0) || !std::isfinite(speed))
+      refuse_table(given, "the speed " + number_text(speed) + " isn't a number of at least 0");
     if (!(R >= 0 && R <= 1)) refuse_table(given, "the restitution " + number_text(R) + " isn't between 0 and 1");
   }
   for (std::size_t i = 1; i < knots.size(); ++i) {
-    const auto& [v, R] = knots[i - 1], &[ next_v, next_R ] = knots[i];
+    const auto& [v, R] = knots[i - 1];
+    const auto& [next_v, next_R] = knots[i];
     if (!(v < next_v))
       refuse_table(given, "the speed " + number_text(next_v) + " follows " + number_text(v) + ", and speeds must rise");
     const double rise = (next_R - R) / (next_v - v);
@@ -85,6 +89,25 @@ void check_knots(const Setting& given, const std::vector<SpeedTable::Knot>& knot
                  "grows exponentially; begin with a constant one, or with less than 1");
 }
 
+/// Removes a setting of the file in favour of another one. One of both sides, in favour of one of a single side, stays
+/// for the other.
+void give_way(Settings& settings, const Setting& former, const Setting& by, const KeysOfLaw& law, Side other) {
+  const auto is_of_both = [&](const Setting& one) {
+    const std::string_view name = one.key->name;
+    return name == law.of_speed || name == law.R.key() || name == law.exponent.key() || name == law.reference.key();
+  };
+  const std::string half(std::string(former.key->name) + (other == Side::lower ? "_lower" : "_upper"));
+  const Key* const stays = is_of_both(former) && !is_of_both(by) ? find_key(settings.scene_section, half) : nullptr;
+  settings.replaced.push_back({former.key->name, by.key_location, former.key_location,
+                               stays != nullptr ? ", which stays as " + in_quotes(half) : "", 0});
+  for (auto* const list : {&settings.values, &settings.axes})
+    for (auto one = list->begin(); one != list->end();) {
+      const bool is_it = one->key == former.key && !on_command_line(one->key_location);
+      if (is_it && stays != nullptr) one->key = stays;
+      one = is_it && stays == nullptr ? list->erase(one) : std::next(one);
+    }
+}
+
 /// R_exponent needs R_reference_speed, and R at that speed no less than p/(1 + p).
 void check_power(const Settings& settings, const KeysOfLaw& law, Side side, const AxisGroups& groups) {
   const Setting *const exponent = at(settings, law.exponent, side), *const R = at(settings, law.R, side);
@@ -93,8 +116,8 @@ void check_power(const Settings& settings, const KeysOfLaw& law, Side side, cons
     fail(exponent->key_location, in_quotes(exponent->key->name) + " without " + in_quotes(law.reference.key()) +
                                      "; add the impact speed at which the restitution is " + std::string(law.R.key()));
   if (R == nullptr) return;  // R = 1
-  const bool is_of_both = R->key->name == law.R.key(), of_both = exponent->key->name == law.exponent.key();
-  Placed least = placed(settings, groups, of_both ? law.exponent : half_of(law.exponent, side));
+  const bool is_of_both = R->key->name == law.R.key(), is_exponent_of_both = exponent->key->name == law.exponent.key();
+  Placed least = placed(settings, groups, is_exponent_of_both ? law.exponent : half_of(law.exponent, side));
   for (double& p : least.values) p = p / (1 + p);
   const Placed restitution = placed(settings, groups, is_of_both ? law.R : half_of(law.R, side));
   compare(least, restitution, is_not_above,
@@ -118,6 +141,25 @@ void check_table(const Settings& settings, const KeysOfLaw& law, Side side) {
 }
 
 }  // namespace
+
+void let_speed_table_or_restitution_win(Settings& settings) {
+  for (const KeysOfLaw& law : laws)
+    for (const Side side : {Side::lower, Side::upper}) {
+      const Setting* table = table_at(settings, law, side);
+      if (table == nullptr) continue;
+      for (const Parameter both : {law.R, law.exponent, law.reference}) {
+        const Setting* const number = at(settings, both, side);
+        if (number == nullptr || on_command_line(number->key_location) == on_command_line(table->key_location))
+          continue;
+        const Setting by = on_command_line(number->key_location) ? *number : *table,
+                      former = on_command_line(number->key_location) ? *table : *number;
+        const bool is_over = former.key == table->key;
+        give_way(settings, former, by, law, opposite(side));
+        if (is_over) break;
+        table = table_at(settings, law, side);  // which may lie elsewhere now
+      }
+    }
+}
 
 SpeedTable speed_table(const Setting& given) {
   const std::string& text = std::get<std::string>(given.value);

@@ -17,6 +17,10 @@ void set_speed_tables(const Settings& settings, GivenScene& scene);
 /// Whether a table takes the place of a key of restitution, for the stop of the key or for one of both.
 [[nodiscard]] bool has_speed_table(const Settings& settings, std::string_view restitution);
 
+/// Lets a table of the command line replace the restitution of the file, and the other way round; of one that stands
+/// for both stops the other one's stays.
+void let_speed_table_or_restitution_win(Settings& settings);
+
 /// Throws ConfigError if a restitution by speed lacks a key, or is given in two ways; and if at some point of the sweep
 /// the power law would let a faster impact rebound more slowly at its reference speed.
 void check_restitutions(const Settings& settings, const AxisGroups& groups);

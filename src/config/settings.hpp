@@ -36,7 +36,7 @@ struct Setting {
 
 /// A setting that another one replaced: one of the file by one of the command line, or a value by an axis.
 struct Replaced {
-  Parameter parameter;        ///< of the file's setting
+  std::string_view key;       ///< of the file's setting
   SourceLocation by, former;  ///< of the two settings
   std::string remark;         ///< ", which stays as 'stop_lower'", or empty
   std::size_t values = 0;     ///< of an axis that one value replaced; 0: of none

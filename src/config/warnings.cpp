@@ -115,9 +115,8 @@ void warn_of_surplus_values(const Settings& settings, std::vector<Warning>& warn
   for (const Replaced& replaced : settings.replaced)
     if (replaced.is_surplus)
       warnings.push_back({to_string(replaced.former), std::string(settings.scene_section),
-                          '\'' + std::string(replaced.parameter.key()) +
-                              "' has no effect beside its axis in [sweep], " + to_string(replaced.by) +
-                              "; leave one of them out"});
+                          '\'' + std::string(replaced.key) + "' has no effect beside its axis in [sweep], " +
+                              to_string(replaced.by) + "; leave one of them out"});
 }
 
 /// Warns of an axis of the file that the command line replaces by one value.
@@ -126,7 +125,7 @@ void warn_of_lost_axes(const Settings& settings, std::vector<Warning>& warnings)
     if (replaced.values > 1)
       warnings.push_back({to_string(replaced.by), "sweep",
                           "one value in place of the " + std::to_string(replaced.values) + " of '" +
-                              std::string(replaced.parameter.key()) + "' in [sweep], " + to_string(replaced.former)});
+                              std::string(replaced.key) + "' in [sweep], " + to_string(replaced.former)});
 }
 
 bool transient(const Settings& settings) { return settings.text("time", "mode") == "transient"; }

@@ -210,18 +210,19 @@ class Campaign:
                 continue
             tau, x, v = 0.0, s.x0, s.v0
             if x == s.stop_lower:
-                v = max(v, -s.R_lower * v)  # the impact at the beginning isn't logged
+                v = max(v, -s.R_at("_lower", abs(v)) * v)  # the impact at the beginning isn't logged
             if x == s.stop_upper:
-                v = min(v, -s.R_upper * v)
+                v = min(v, -s.R_at("_upper", abs(v)) * v)
             for time, side, before, after in log[:40]:
-                stop, R = (s.stop_upper, s.R_upper) if side > 0 else (s.stop_lower, s.R_lower)
+                stop, name = (s.stop_upper, "_upper") if side > 0 else (s.stop_lower, "_lower")
+                R, ulps = s.R_at(name, abs(before)), 4 if getattr(s, "R_exponent" + name) else 1  # of the power
                 held = v == 0 and x in (s.stop_lower, s.stop_upper)  # it may have rested in between
                 there = flown(s, tau, x, v, time - tau)
                 off = abs(there[0] - stop) + abs(there[1] - before)
                 if not held and not off <= 1e-9 * (1 + abs(stop) + abs(before)):
                     self.fail("log", i, f"impact at {time}: {there} for {stop}, {before}")
                     break
-                if not abs(after + R * before) <= 1e-15 * abs(before):
+                if not abs(after + R * before) <= ulps * 1e-15 * abs(before):
                     self.fail("log", i, f"impact at {time}: {after} after {before}")
                     break
                 # a slow rebound may be the one after which a chatter is summed

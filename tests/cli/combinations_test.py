@@ -12,6 +12,7 @@ from followed_branches import BranchCampaign
 from followed_curves import CurveCampaign
 from random_scenes import (
     bumping_scenes,
+    by_speed,
     carrying_scenes,
     followed_scenes,
     rough_scenes,
@@ -40,12 +41,23 @@ class Combinations(unittest.TestCase):
         for first in range(0, COUNT, AT_ONCE):
             self.check(rough_scenes(min(AT_ONCE, COUNT - first), SEED + first // AT_ONCE))
 
+    def test_two_ways_to_write_a_restitution_by_speed_give_one_motion(self):
+        for first in range(0, COUNT // 2, AT_ONCE):
+            count, seed = min(AT_ONCE, COUNT // 2 - first), SEED + 50 + first // AT_ONCE
+            self.check(by_speed(rough_scenes(count, seed), seed))
+
     def test_every_impact_of_a_weak_scene_is_told(self):
         """Once spring, damper and force were next to nothing, chatter was summed from its first rebound on."""
         self.check(weak_scenes())
 
     def test_points_of_branches_are_motions_and_no_special_point_is_missing(self):
         campaign = BranchCampaign(CLATTER, followed_scenes(max(25, COUNT // 10), SEED))
+        self.assertEqual(report(campaign.failures), "")
+        self.assertGreater(campaign.points, 200)
+
+    def test_points_of_branches_with_a_restitution_by_speed_are_motions(self):
+        scenes = followed_scenes(max(25, COUNT // 20), SEED + 3) + bumping_scenes(max(25, COUNT // 20), SEED + 3)
+        campaign = BranchCampaign(CLATTER, by_speed(scenes, SEED))
         self.assertEqual(report(campaign.failures), "")
         self.assertGreater(campaign.points, 200)
 

@@ -6,6 +6,7 @@ import tempfile
 import unittest
 
 import numpy as np
+from random_scenes import SPEEDS
 from scene_runs import STEADY, Program, keys_of
 
 CLATTER = os.environ["CLATTER"]
@@ -41,6 +42,8 @@ RESULTS_IN_HOUSING = {**RESULTS, **dict.fromkeys(("y_min", "y_max", "z_min", "z_
 def powers_of(key, of_section):
     if key in LENGTHS:
         return (1, 0, 0)
+    if key in SPEEDS:
+        return (1, -1, 0)
     if key in STIFFNESSES:
         return (0, -2, 1)
     return of_section.get(key, (0, 0, 0))

@@ -142,7 +142,7 @@ class BranchCampaign:
     def may_jump(found, point):
         """Whether a point is one at which dry friction begins to hold the mass, or no longer does, or at which rounding
         decides which of two events comes first."""
-        jumps = (b"release tangency", b"simultaneous events")
+        jumps = (b"release tangency", b"simultaneous events", b"rebound threshold")
         changes = [b"sliding" in kind or kind in jumps for kind in found["special_kind"]]
         return np.any(np.abs(found["special_nu"][changes] - found["nu"][point]) <= 1e-9)
 

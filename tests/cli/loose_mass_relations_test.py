@@ -17,6 +17,8 @@ SPEEDS = ("v0", "loose_v0")
 ACCELERATIONS = ("f", "load", "loose_load")
 LEVELS = ("loose_friction", "loose_friction_static")  # forces that a mirror leaves
 STIFFNESSES = ("loose_wall_stiffness_lower", "loose_wall_stiffness_upper")
+RESTITUTIONS = tuple(f"loose_R{law}_{side}" for law in ("", "_exponent") for side in ("lower", "upper"))
+THRESHOLDS = tuple(f"loose_R_{law}_{side}" for law in ("reference_speed", "below") for side in ("lower", "upper"))
 
 
 def drawn(seed):
@@ -32,6 +34,7 @@ def drawn(seed):
 def scaled(scene, length=1.0, rate=1.0):
     """The same motion in other units."""
     powers = {key: (1, 0) for key in LENGTHS} | {key: (1, 1) for key in SPEEDS} | {"h": (0, 1), "nu": (0, 1)}
+    powers |= {key: (1, 1) for key in THRESHOLDS}
     powers |= {key: (1, 2) for key in ACCELERATIONS + LEVELS} | {key: (0, 2) for key in ("stiffness", *STIFFNESSES)}
     factors = {key: length**p * rate**q for key, (p, q) in powers.items()}
     return {key: value * factors.get(key, 1) for key, value in scene.items()}
@@ -71,6 +74,11 @@ def in_scenes(count=8):
 class Relations(LooseMass):
     drawn = staticmethod(drawn)
 
+    @staticmethod
+    def R_at(scene, key, speeds):
+        """The restitution of a wall at the speeds of impacts."""
+        return np.full(len(speeds), scene[key])
+
     def assert_same(self, one, other, *, length=1.0, rate=1.0, side=1, shift=0.0, tolerance=1e-10):
         """Two runs are one motion, in other units of length and time, mirrored, or shifted."""
         self.assertGreater(len(one["impact_tau"]), 1)
@@ -96,8 +104,15 @@ class Relations(LooseMass):
     def test_a_machine_is_its_scene_in_SI(self, scene):
         mass = 0.35
         si = scaled(scene, 2e-3, 90.0)
-        walls = ("loose_R_lower", "loose_R_upper", "loose_wall_damping_lower", "loose_wall_damping_upper", "loose_load")
-        machine = {key: si[key] for key in (*LENGTHS, *SPEEDS, *walls, "phase") if key in si}
+        same = (
+            *RESTITUTIONS,
+            *THRESHOLDS,
+            "loose_wall_damping_lower",
+            "loose_wall_damping_upper",
+            "loose_load",
+            "phase",
+        )
+        machine = {key: si[key] for key in (*LENGTHS, *SPEEDS, *same) if key in si}
         machine |= {"mass": mass, "stiffness": si["stiffness"] * mass, "damping": 2 * si["h"] * mass}
         machine |= {"force": si["f"] * mass, "load": si["load"] * mass, "frequency": si["nu"] / (2 * math.pi)}
         machine |= {key: si[key] * mass for key in LEVELS + STIFFNESSES if key in si}
@@ -144,7 +159,8 @@ class Relations(LooseMass):
         ball |= {"phase": math.atan2(scene["x0"], scene["v0"] / scene["nu"]), "x0": scene["loose_x0"]}
         ball |= {"v0": scene["loose_v0"]}
         for side in ("lower", "upper"):
-            ball |= {f"R_{side}": scene[f"loose_R_{side}"], f"stop_{side}": scene[f"loose_{side}"]}
+            ball |= {f"stop_{side}": scene[f"loose_{side}"]}
+        ball |= {key.removeprefix("loose_"): value for key, value in scene.items() if key.startswith("loose_R")}
         one, other = self.transient(scene), self.transient(ball)
         for name, of_ball in (("z", "x"), ("w", "v")):
             np.testing.assert_allclose(one[name], other[of_ball], atol=1e-7)
@@ -191,8 +207,9 @@ class Relations(LooseMass):
         np.testing.assert_allclose(data["work_in"] - losses, energy[1] - energy[0], atol=1e-12)
         self.assertLess(abs(data["energy_residual"]), 1e-12)
         for i, (side, key) in enumerate(((-1, "loose_R_lower"), (1, "loose_R_upper"))):
-            R, speeds = scene[key], data["impact_v_before"][data["impact_stop"] == side]
-            lost = eps / (1 + eps) * (1 - R * R) * np.sum(speeds**2) / 2
+            speeds = np.abs(data["impact_v_before"][data["impact_stop"] == side])
+            R = self.R_at(scene, key, speeds)
+            lost = eps / (1 + eps) * np.sum((1 - R * R) * speeds**2) / 2
             np.testing.assert_allclose(data["loss_impact"][i], lost, rtol=1e-9, atol=1e-13)
 
     @in_scenes()

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 INF = math.inf
 
+LAWS = tuple(pre + law for pre in ("", "loose_") for law in ("R_exponent", "R_reference_speed", "R_below"))
+SPEEDS = tuple(law + side for law in LAWS if "exponent" not in law for side in ("_lower", "_upper"))
+
 
 @dataclass
 class Scene:
@@ -30,6 +33,12 @@ class Scene:
     stop_stiffness_upper: float = INF
     stop_damping_lower: float = 0.0
     stop_damping_upper: float = 0.0
+    R_exponent_lower: float = 0.0  # 0: R at every speed
+    R_exponent_upper: float = 0.0
+    R_reference_speed_lower: float = 1.0
+    R_reference_speed_upper: float = 1.0
+    R_below_lower: float = 0.0
+    R_below_upper: float = 0.0
     stop_phase: float = 0.0
     friction: float = 0.0
     friction_static: float = 0.0  # 0: as large as the friction
@@ -38,6 +47,12 @@ class Scene:
     loose_upper: float = INF
     loose_R_lower: float = 1.0
     loose_R_upper: float = 1.0
+    loose_R_exponent_lower: float = 0.0
+    loose_R_exponent_upper: float = 0.0
+    loose_R_reference_speed_lower: float = 1.0
+    loose_R_reference_speed_upper: float = 1.0
+    loose_R_below_lower: float = 0.0
+    loose_R_below_upper: float = 0.0
     loose_load: float = 0.0
     loose_x0: float = 0.0
     loose_v0: float = 0.0
@@ -54,14 +69,14 @@ class Scene:
         changes |= {name: 0.0 - getattr(self, name) for name in ("loose_load", "loose_x0", "loose_v0")}
         changes["stop_lower"], changes["stop_upper"] = -self.stop_upper, -self.stop_lower
         changes["loose_lower"], changes["loose_upper"] = -self.loose_upper, -self.loose_lower
-        for name in ("R", "stop_stiffness", "stop_damping", "loose_R"):
+        for name in ("R", "stop_stiffness", "stop_damping", "loose_R", *LAWS):
             changes[name + "_lower"], changes[name + "_upper"] = swapped(name)
         return self.changed(**changes)
 
     def scaled(self, size):
         names = ("f", "load", "x0", "v0", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude")
         names += ("friction", "friction_static")
-        names += ("loose_lower", "loose_upper", "loose_load", "loose_x0", "loose_v0")
+        names += ("loose_lower", "loose_upper", "loose_load", "loose_x0", "loose_v0", *SPEEDS)
         return self.changed(**{name: size * getattr(self, name) for name in names})
 
     def shifted(self, place):
@@ -70,7 +85,7 @@ class Scene:
 
     def in_time(self, faster):
         """The same motion in units of time that are shorter by so much."""
-        changes = {name: getattr(self, name) / faster for name in ("h", "nu", "v0", "loose_v0")}
+        changes = {name: getattr(self, name) / faster for name in ("h", "nu", "v0", "loose_v0", *SPEEDS)}
         squares = ("f", "load", "stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
         squares += ("friction", "friction_static", "loose_load")
         return self.changed(**changes, **{name: getattr(self, name) / faster**2 for name in squares})
@@ -79,6 +94,18 @@ class Scene:
         """The same motion of stops or base, half a turn ahead with the other sign."""
         changes = {name: -getattr(self, name) for name in ("stop_amplitude", "base_amplitude")}
         return self.changed(stop_phase=self.stop_phase + math.pi, **changes)
+
+    def R_at(self, side, speed):
+        """The restitution of a stop, "_lower" or "_upper", at the speed of an impact."""
+        if speed < getattr(self, "R_below" + side):
+            return 0.0
+        R, p = getattr(self, "R" + side), getattr(self, "R_exponent" + side)
+        return max(p / (1 + p), 1 - (1 - R) * (speed / getattr(self, "R_reference_speed" + side)) ** p) if p else R
+
+    def area_factor(self, side, speed):
+        """By how much an impact changes areas of states: R times the derivative of R v by v."""
+        R, p = self.R_at(side, speed), getattr(self, "R_exponent" + side)
+        return R * (1 - (1 + p) * (1 - R) if p and R > p / (1 + p) else R)
 
     def is_unforced(self):
         return self.f == 0 and self.stop_amplitude == 0 and self.base_amplitude == 0
@@ -164,6 +191,27 @@ def rubbed_scenes(count, seed):
     """Those of `random_scenes` that may have dry friction, all with it."""
     draw = random.Random(f"friction {seed}")
     return [rubbed(draw, scene) for scene in random_scenes(count, seed) if not scene.stop_amplitude]
+
+
+def by_speed(scenes, seed):
+    """The scenes with restitutions that depend on the speed, at one stop or wall or more."""
+    draw = random.Random(f"speed {seed}")
+    changed = []
+    for scene in scenes:
+        laws = {}
+        for pre, rigid in (("", "stop_stiffness"), ("loose_", "")):
+            for side in ("_lower", "_upper"):
+                if rigid and not math.isinf(getattr(scene, rigid + side)) or draw.random() < 0.2:
+                    continue
+                if draw.random() < 0.7:
+                    p = draw.choice([0.2, draw.uniform(0.05, 0.5)])
+                    R = getattr(scene, f"{pre}R{side}")
+                    laws |= {f"{pre}R_exponent{side}": p, f"{pre}R{side}": max(R, p / (1 + p))}
+                    laws[f"{pre}R_reference_speed{side}"] = logarithmic(draw, 0.2, 3)
+                if draw.random() < 0.4:
+                    laws[f"{pre}R_below{side}"] = logarithmic(draw, 1e-3, 0.2)
+        changed.append(scene.changed(**laws))
+    return changed
 
 
 def compliant(draw):

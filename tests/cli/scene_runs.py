@@ -14,6 +14,14 @@ STEADY = OBSERVED.replace("3", "2") + "period = true\nword = true\nstability = t
 LOGGED = ("impact_count", "impact_tau", "impact_stop", "impact_v_")
 
 
+def keys_of_law(scene, law):
+    """Those of a restitution that depends on the speed."""
+    pre, _, side = law.rpartition("R")
+    exponent, below = pre + "R_exponent" + side, pre + "R_below" + side
+    keys = [exponent, pre + "R_reference_speed" + side] if getattr(scene, exponent) else []
+    return keys + ([below] if getattr(scene, below) else [])
+
+
 def keys_of(scene):
     """The values of the keys that a scene's kind of stops and shaking has."""
     keys = "h f nu phase load stiffness x0 v0".split()
@@ -21,11 +29,14 @@ def keys_of(scene):
         if math.isfinite(getattr(scene, "stop" + side)):
             is_soft = math.isfinite(getattr(scene, "stop_stiffness" + side))
             keys += ["stop" + side] + (["stop_stiffness" + side, "stop_damping" + side] if is_soft else ["R" + side])
+            keys += [] if is_soft else keys_of_law(scene, "R" + side)
     optional = "stop_amplitude base_amplitude stop_phase friction friction_static".split()
     keys += [key for key in optional if getattr(scene, key) != 0]
     if scene.loose_mass:
         keys += "loose_mass loose_R_lower loose_R_upper loose_load loose_x0 loose_v0".split()
-        keys += [key for key in ("loose_lower", "loose_upper") if math.isfinite(getattr(scene, key))]
+        for side in ("_lower", "_upper"):
+            if math.isfinite(getattr(scene, "loose" + side)):
+                keys += ["loose" + side, *keys_of_law(scene, "loose_R" + side)]
     return {key: getattr(scene, key) for key in keys}
 
 

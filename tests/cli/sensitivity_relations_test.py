@@ -13,7 +13,7 @@ import unittest
 import numpy as np
 from derivatives import OF_MACHINE, OF_SCENE, PERIODIC, RESULTS, SETTLE, SIDES, STARTS, Family, OfScenes
 from derivatives import derivative, families, same_motion
-from random_scenes import INF, compliant_scenes, pressing_scenes, random_scenes, rubbed
+from random_scenes import INF, by_speed, compliant_scenes, pressing_scenes, random_scenes, rubbed
 from scene_runs import STEADY, keys_of, machine_keys
 
 COUNT, _, SEED = os.environ.get("CLATTER_SENSITIVITY", "150").partition(":")
@@ -28,19 +28,21 @@ def drawn(count, seed):
     return [scene for scene in scenes if not scene.is_unforced() and abs(scene.f) >= 0.02]
 
 
-class OfRandomScenes(OfScenes):
+class Relations(OfScenes):
+    drawn, count = staticmethod(drawn), COUNT
+
     def test_the_units_of_length_time_and_mass_may_change(self):
-        for scenes in families(drawn(COUNT, SEED)):
+        for scenes in families(self.drawn(self.count, SEED)):
             self.check_scaling(Family(self.program, scenes), scenes, OF_SCENE, 0)
             if any(scene.base_amplitude or scene.stop_amplitude for scene in scenes):
                 absolute = Family(self.program, scenes, observe='frame = "absolute"\n')
                 self.check_scaling(absolute, scenes, OF_SCENE, 0)
         mass = 0.3
-        for scenes in families(drawn(COUNT // 3, SEED + 1), machine_keys(mass)):
+        for scenes in families(self.drawn(self.count // 3, SEED + 1), machine_keys(mass)):
             family = Family(self.program, scenes, f"[machine]\nmass = {mass}\n", machine_keys(mass))
             self.check_scaling(family, scenes, OF_MACHINE, mass)
         self.assertEqual(self.told(), "")
-        self.assertGreater(self.compared, 8 * COUNT)
+        self.assertGreater(self.compared, 8 * self.count)
         springless = [text for text in self.unknown if "stiffness=0.0," in text]  # free to drift without impacts
         self.assertEqual([text for text in self.unknown if text not in springless], [])
         self.assertLess(len(springless), 0.1 * self.compared)
@@ -48,7 +50,7 @@ class OfRandomScenes(OfScenes):
     def test_they_are_the_limits_of_differences(self):
         """By one key of each scene, from runs that begin on the motion itself; to four orders in the step."""
         sharp = rough = 0
-        for n, scenes in enumerate(families(drawn(COUNT, SEED + 2))):
+        for n, scenes in enumerate(families(self.drawn(self.count, SEED + 2))):
             frame = 'frame = "absolute"\n' if scenes[0].base_amplitude or scenes[0].stop_amplitude else ""
             family = Family(self.program, scenes, observe=frame)
             key = family.keys[n % len(family.keys)]
@@ -75,9 +77,19 @@ class OfRandomScenes(OfScenes):
                 sharp += by_it
                 rough += by_it if scenes[i].friction else 0
         self.assertEqual(self.told(), "")
-        self.assertGreater(sharp, COUNT // 2)
-        self.assertGreater(rough, COUNT // 8)
+        self.assertGreater(sharp, self.count // 2)
+        self.assertGreater(rough, self.count // 8)
 
+
+class OfRestitutionBySpeed(Relations):
+    count = COUNT // 2
+
+    @staticmethod
+    def drawn(count, seed):
+        return by_speed(drawn(count, seed), seed)
+
+
+class OfRandomScenes(Relations):
     def test_friction_that_begins(self):
         """Derivatives by the friction at 0, by differences to one side of it."""
         scenes = [scene for scene in drawn(COUNT, SEED + 3) if not scene.stop_amplitude and not scene.friction]
@@ -217,8 +229,10 @@ def permitted(scene):
     sides = ("_lower", "_upper")
     numbers = [getattr(scene, name + side) for name in ("stop_damping",) for side in sides] + [scene.h]
     R = [getattr(scene, "R" + side) for side in sides]
+    exponents = [getattr(scene, "R_exponent" + side) for side in sides]
     below = 0 < scene.friction_static < scene.friction
-    return all(number >= 0 for number in numbers) and all(0 <= number <= 1 for number in R) and not below
+    may_rebound = all(p / (1 + p) <= of <= 1 for of, p in zip(R, exponents))
+    return all(number >= 0 for number in numbers + exponents) and may_rebound and not below
 
 
 def started(scene, x, v, frame):

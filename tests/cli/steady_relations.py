@@ -55,8 +55,9 @@ class SteadyMotions:
                     self.grazes(i, s, log, runs)
                 continue
             if not rests and not soft and not s.friction:
-                of = {-1: s.R_lower, 1: s.R_upper}
-                expected = math.exp(-2 * s.h * period) * math.prod(of[side] ** 2 for side in log[:, 1])
+                of = {-1: "_lower", 1: "_upper"}
+                areas = [s.area_factor(of[side], abs(before)) for side, before in log[:, 1:3]]
+                expected = math.exp(-2 * s.h * period) * math.prod(areas)
                 product = complex_of(runs, i, 0) * complex_of(runs, i, 1)
                 if not abs(product - expected) <= 1e-9 * expected + 1e-14:
                     self.fail("multipliers", i, f"product {product} for {expected}")

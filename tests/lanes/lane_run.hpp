@@ -31,7 +31,7 @@ struct LaneRun {
 inline motion::Event impact_of(const LaneView& lane, const point::Problem& scene, double sections) {
   const LaneState position = lane.state();
   const bool upper = position.x == scene.stops.upper;
-  const double R = upper ? scene.stops.restitution_upper : scene.stops.restitution_lower;
+  const double R = law_of(scene.stops, upper ? Side::upper : Side::lower).R;
   return {.side = upper ? Side::upper : Side::lower,
           .time = (sections + position.phase_turns) * period_of(scene.oscillator),
           .before = -position.v / R,

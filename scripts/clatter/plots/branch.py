@@ -35,6 +35,7 @@ MARKS = {  # special point: its symbol, and whether it is filled
     "Neimark-Sacker": ("8", True),
     "motion ceases": ("H", True),
     "simultaneous events": ("+", True),
+    "rebound threshold": ("1", True),
     "strong resonance": ("x", True),
 }
 CURVES = {  # special point: name and dashes of its curve in the plane of two parameters

@@ -43,9 +43,16 @@ struct StartProblem : FollowedScene, point::RunSettings {
 }
 
 /// The numbers of a computed scene, of a type that may carry derivatives.
+/// They have each impact rebound: one that is too slow for that ends a branch.
 template <class Number>
 struct SceneNumbers : BasicScene<Number> {
   Number mass{1.0};  ///< over that of the units
+
+  SceneNumbers() = default;
+  SceneNumbers(const BasicScene<Number>& scene, const Number& over_unit = Number(1))
+      : BasicScene<Number>(scene), mass(over_unit) {
+    for (Restitution<Number>* const law : laws_of<Number>(*this)) law->below = Number(0);
+  }
 
   [[nodiscard]] const Number& position(Side stop) const {
     return stop == Side::upper ? this->stops.upper : this->stops.lower;

@@ -26,10 +26,11 @@ enum class SpecialKind : std::uint8_t {
   neimark_sacker,     ///< of a loose mass: a pair of multipliers leaves the unit circle
   motion_ceases,      ///< under dry friction: it comes up to the force, and beyond holds the mass for good
   simultaneous,       ///< of a loose mass: an event of each of the two masses at the same instant
+  rebound_threshold,  ///< an impact comes down to the speed below which the mass doesn't rebound
   strong_resonance    ///< of a curve of Neimark-Sacker points: the pair of multipliers comes to 1 or -1
 };
 [[nodiscard]] constexpr std::string_view name_of(SpecialKind kind) {
-  constexpr std::array<std::string_view, 18> names{"fold",
+  constexpr std::array<std::string_view, 19> names{"fold",
                                                    "flip",
                                                    "symmetry breaking",
                                                    "graze",
@@ -46,6 +47,7 @@ enum class SpecialKind : std::uint8_t {
                                                    "Neimark-Sacker",
                                                    "motion ceases",
                                                    "simultaneous events",
+                                                   "rebound threshold",
                                                    "strong resonance"};
   return names[static_cast<std::size_t>(kind)];
 }

@@ -6,6 +6,7 @@
 #include "branches/equations/housing_flight.hpp"
 #include "branches/equations/links.hpp"
 #include "branches/walk/flight_end.hpp"
+#include "branches/walk/rebound_threshold.hpp"
 #include "branches/walk/slip_violation.hpp"
 #include "motion/contact.hpp"
 
@@ -259,6 +260,8 @@ std::optional<Violation> violation_of_both(const FollowedScene& scene, const Orb
 }  // namespace
 
 std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
+  if (const auto slow = impact_without_rebound(scene, orbit); slow && slow != grazing)
+    return Violation{Violation::Kind::no_rebound, *slow, {}};
   if (has_friction(scene.friction) || orbit.halts()) {
     const std::vector<Violation> found = slip_violations(scene, orbit, grazing);
     return found.empty() ? std::nullopt : std::optional(found.front());

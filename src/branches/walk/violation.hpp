@@ -12,6 +12,7 @@ struct Violation {
   enum class Kind : std::uint8_t {
     passes_through,  ///< a flight meets a stop before its end; or a soft stop's force rises or falls to zero before it
     pulls,           ///< an impact's velocity points away from its stop; an event within a soft stop lies outside
+    no_rebound,      ///< an impact is so slow that the mass doesn't rebound
     at_once,         ///< a flight meets a stop or a wall just as it ends with an event of the other mass
     ends_early,      ///< a contact with a soft stop, or its interruption, ends before it begins
     halts,           ///< the velocity falls to 0 before a flight's end
