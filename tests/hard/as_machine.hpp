@@ -8,6 +8,14 @@
 
 namespace clatter::hard {
 
+/// A law of restitution in the simulator's terms.
+[[nodiscard]] inline Law law_of_speed(const Restitution<double>& of) {
+  Law law{.exponent = of.exponent, .reference = of.reference, .below = of.below, .unit = of.unit};
+  if (of.table)
+    for (const auto& [speed, R] : of.table->knots) law.knots.push_back({speed, R});
+  return law;
+}
+
 /// A scene in the simulator's terms.
 [[nodiscard]] inline MachineScene as_machine(const Scene& scene) {
   const auto& [oscillator, stops, start, shaking, friction, loose] = scene;
@@ -21,8 +29,10 @@ namespace clatter::hard {
           .static_friction = friction.static_level,
           .lower = stops.lower,
           .upper = stops.upper,
-          .restitution_lower = stops.restitution_lower,
-          .restitution_upper = stops.restitution_upper,
+          .restitution_lower = stops.restitution_lower.R,
+          .restitution_upper = stops.restitution_upper.R,
+          .law_lower = law_of_speed(stops.restitution_lower),
+          .law_upper = law_of_speed(stops.restitution_upper),
           .kappa_lower = stops.stiffness_lower,
           .kappa_upper = stops.stiffness_upper,
           .zeta_lower = stops.damping_lower,
@@ -30,8 +40,10 @@ namespace clatter::hard {
           .loose_mass = loose.ratio,
           .wall_lower = loose.lower,
           .wall_upper = loose.upper,
-          .wall_R_lower = loose.restitution_lower,
-          .wall_R_upper = loose.restitution_upper,
+          .wall_R_lower = loose.restitution_lower.R,
+          .wall_R_upper = loose.restitution_upper.R,
+          .wall_law_lower = law_of_speed(loose.restitution_lower),
+          .wall_law_upper = law_of_speed(loose.restitution_upper),
           .wall_kappa_lower = loose.stiffness_lower,
           .wall_kappa_upper = loose.stiffness_upper,
           .wall_zeta_lower = loose.damping_lower,
@@ -89,6 +101,10 @@ namespace clatter::hard {
   if (given.z == given.wall_upper) s.z = s.wall_upper;
   if (given.x == given.lower) s.x = s.lower;
   if (given.x == given.upper) s.x = s.upper;
+  for (Law* law : {&s.law_lower, &s.law_upper, &s.wall_law_lower, &s.wall_law_upper}) {
+    for (double* value : {&law->exponent, &law->reference, &law->below, &law->unit}) nudge(*value);
+    for (Law::Knot& knot : law->knots) nudge(knot.R), knot.R = std::min(1.0, knot.R);
+  }
   return s;
 }
 

@@ -181,7 +181,7 @@ class Machine {
   /// The side to which the loose mass moves in its housing, if it rubs.
   [[nodiscard]] int slide() const { return !m_.rubs() || m_.w == 0 ? 0 : m_.w > 0 ? 1 : -1; }
   void strike_stop(int side) {
-    const Quad before = std::exchange(m_.v, -m_.stop(side).restitution * m_.v);
+    const Quad before = std::exchange(m_.v, -m_.stop(side).rebound.share(size_of(m_.v)) * m_.v);
     if (is_slow(size_of(m_.v), side * m_.acceleration(-side, slide()))) m_.v = 0;
     if (m_.has_loose) m_.w += before - m_.v;
     run_.struck += to_long((before * before - m_.v * m_.v) / 2);
@@ -189,7 +189,7 @@ class Machine {
   }
   void strike_wall(int side) {
     const Quad before = m_.w, share = Quad(m_.scene.loose_mass) / (1 + Quad(m_.scene.loose_mass)), v = m_.v;
-    for (const Quad R : {m_.wall(side).restitution, Quad(0)}) {
+    for (const Quad R : {m_.wall(side).rebound.share(size_of(before)), Quad(0)}) {
       m_.w = -R * before, m_.v = v + share * (1 + R) * before;
       const int away = m_.rubs() ? -side : 0;
       const Quad back = side * (m_.loose_push(away) - m_.acceleration(m_.v > 0 ? 1 : m_.v < 0 ? -1 : 0, away));

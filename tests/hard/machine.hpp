@@ -9,6 +9,18 @@ namespace clatter::hard {
 
 inline constexpr double no_stop = std::numeric_limits<double>::infinity();
 
+/// How the restitution of a stop or wall depends on the speed v of the impact, beside its plain number R: not at all, as
+/// 1 - (1 - R) (v/V)^p, but no less than p/(1 + p), or by knots in place of both, along straight lines between them.
+struct Law {
+  struct Knot {
+    double speed, R;
+  };
+  double exponent = 0, reference = 1;  ///< p, 0: R at each speed; and V
+  double below = 0;                    ///< slower impacts leave no speed, by any law
+  std::vector<Knot> knots{};           ///< by rising speed
+  double unit = 1;                     ///< of their speeds
+};
+
 /// A main mass, 1, with friction, between stops, that may carry a loose mass eps between two walls:
 ///   x'' + 2h x' + k x + mu sgn x' = f sin(nu tau + phase) + load + soft stops + F sgn z',
 ///   y'' = loose_load - F sgn z'/eps, z = y - x.
@@ -20,11 +32,13 @@ struct MachineScene {
   double friction = 0, static_friction = 0;  ///< levels; the static one is no less than the other
   double lower = -no_stop, upper = no_stop;  ///< places of the stops; infinite: none
   double restitution_lower = 1, restitution_upper = 1;
+  Law law_lower{}, law_upper{};
   double kappa_lower = no_stop, kappa_upper = no_stop;
   double zeta_lower = 0, zeta_upper = 0;
   double loose_mass = 0;  ///< eps; 0: none
   double wall_lower = -no_stop, wall_upper = no_stop;
   double wall_R_lower = 1, wall_R_upper = 1;
+  Law wall_law_lower{}, wall_law_upper{};
   double wall_kappa_lower = no_stop, wall_kappa_upper = no_stop;
   double wall_zeta_lower = 0, wall_zeta_upper = 0;
   double loose_load = 0;

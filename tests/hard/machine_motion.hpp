@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "hard/machine.hpp"
@@ -12,17 +13,46 @@
 
 namespace clatter::hard::machine {
 
+/// How a stop or a wall throws back.
+struct Rebound {
+  Quad R;
+  Law law;
+
+  /// The share of a speed that an impact leaves.
+  [[nodiscard]] Quad share(Quad speed) const {
+    if (speed < law.below) return 0;
+    if (!law.knots.empty()) return share_by_knots(speed);
+    if (law.exponent == 0) return R;
+    const Quad p = law.exponent;
+    return std::max(1 - (1 - R) * powq(speed / law.reference, p), p / (1 + p));
+  }
+  [[nodiscard]] Quad share_by_knots(Quad speed) const {
+    const Law::Knot* slower = nullptr;
+    for (const Law::Knot& knot : law.knots) {
+      const Quad above = Quad(knot.speed) * Quad(law.unit) - speed;
+      if (above >= 0 && slower == nullptr) return knot.R;
+      if (above >= 0) {
+        const Quad below = speed - Quad(slower->speed) * Quad(law.unit);
+        return (slower->R * above + knot.R * below) / (above + below);
+      }
+      slower = &knot;
+    }
+    return slower->R;
+  }
+};
 /// A stop or a wall.
 struct Contact {
   bool exists, is_soft;
-  Quad place, restitution, kappa, damper;
+  Quad place;
+  Rebound rebound;
+  Quad kappa, damper;
 };
-[[nodiscard]] inline Contact contact(double place, double restitution, double kappa, double zeta, Quad mass = 1) {
+[[nodiscard]] inline Contact contact(double place, Rebound rebound, double kappa, double zeta, Quad mass = 1) {
   const bool is_soft = std::isfinite(kappa);
   return {std::isfinite(place),
           is_soft,
           place,
-          restitution,
+          std::move(rebound),
           is_soft ? kappa : 0,
           is_soft ? 2 * Quad(zeta) * sqrtq(kappa * mass) : 0};
 }
@@ -81,11 +111,11 @@ struct Motion {
   explicit Motion(const MachineScene& s) : scene(s), anchor(s.x), v(s.v), wall_anchor(s.z), w(s.w) {
     mus = std::max(scene.static_friction, scene.friction);
     loose_mus = std::max(scene.loose_static, scene.loose_friction);
-    stops = {contact(scene.lower, scene.restitution_lower, scene.kappa_lower, scene.zeta_lower),
-             contact(scene.upper, scene.restitution_upper, scene.kappa_upper, scene.zeta_upper)};
+    stops = {contact(scene.lower, {scene.restitution_lower, scene.law_lower}, scene.kappa_lower, scene.zeta_lower),
+             contact(scene.upper, {scene.restitution_upper, scene.law_upper}, scene.kappa_upper, scene.zeta_upper)};
     const Quad reduced = Quad(scene.loose_mass) / (1 + Quad(scene.loose_mass));
-    walls = {contact(scene.wall_lower, scene.wall_R_lower, scene.wall_kappa_lower, scene.wall_zeta_lower, reduced),
-             contact(scene.wall_upper, scene.wall_R_upper, scene.wall_kappa_upper, scene.wall_zeta_upper, reduced)};
+    walls = {contact(scene.wall_lower, {scene.wall_R_lower, scene.wall_law_lower}, scene.wall_kappa_lower, scene.wall_zeta_lower, reduced),
+             contact(scene.wall_upper, {scene.wall_R_upper, scene.wall_law_upper}, scene.wall_kappa_upper, scene.wall_zeta_upper, reduced)};
     has_loose = scene.loose_mass > 0 && (walls[0].exists || walls[1].exists);
     if (!has_loose) walls[0].exists = walls[1].exists = false;
     for (const int side : {-1, 1})
@@ -227,7 +257,7 @@ struct Motion {
   }
   /// The force of the soft stop around, in its direction or against it.
   [[nodiscard]] Guard force(Guard::Of of, int sign, const Series& x, Quad step) const {
-    const auto& [exists, is_soft, place, R, kappa, damper] = stop(around);
+    const auto& [exists, is_soft, place, rebound, kappa, damper] = stop(around);
     Guard guard{of, around, {}, kappa * size_of(q) + damper * size_of(v), 0};
     for (std::size_t n = 0; n + 1 < terms; ++n)
       guard.p[n] = sign * around * (kappa * x[n] + damper * number(n + 1) * x[n + 1] / step);
@@ -235,7 +265,7 @@ struct Motion {
   }
   /// The same of the soft wall.
   [[nodiscard]] Guard wall_force(Guard::Of of, int sign, const Series& way, Quad step) const {
-    const auto& [exists, is_soft, place, R, kappa, damper] = wall(wall_around);
+    const auto& [exists, is_soft, place, rebound, kappa, damper] = wall(wall_around);
     Guard guard{of, wall_around, {}, kappa * size_of(r) + damper * size_of(w), 0};
     for (std::size_t n = 0; n + 1 < terms; ++n)
       guard.p[n] = sign * wall_around * (kappa * way[n] + damper * number(n + 1) * way[n + 1] / step);

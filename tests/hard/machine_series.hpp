@@ -14,6 +14,7 @@ extern "C" {
 [[nodiscard]] Quad sinq(Quad) noexcept;
 [[nodiscard]] Quad cosq(Quad) noexcept;
 [[nodiscard]] Quad sqrtq(Quad) noexcept;
+[[nodiscard]] Quad powq(Quad, Quad) noexcept;
 }
 
 // Polynomials of a step's part u, 0 ... 1.

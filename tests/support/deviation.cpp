@@ -28,6 +28,26 @@ std::string text(const accuracy::Event& event) {
   return out.str();
 }
 
+/// The keys of a law of restitution, of one side.
+std::string law_text(const Restitution<double>& law, const std::string& key, const std::string& side) {
+  std::ostringstream out;
+  out << std::setprecision(17) << '\n';
+  if (law.table) {
+    out << key << "_of_speed_" << side << " = \"";
+    for (const auto& [speed, R] : law.table->knots)
+      out << (&R == &law.table->knots.front().R ? "" : ", ") << speed * law.unit << ": " << R;
+    out << '"';
+  } else {
+    out << key << '_' << side << " = " << law.R;
+  }
+  if (law.exponent != 0)
+    out << '\n'
+        << key << "_exponent_" << side << " = " << law.exponent << '\n'
+        << key << "_reference_speed_" << side << " = " << law.reference;
+  if (law.below != 0) out << '\n' << key << "_below_" << side << " = " << law.below;
+  return out.str();
+}
+
 }  // namespace
 
 double Deviation::largest() const { return std::max({time, speed, place, end}); }
@@ -84,17 +104,17 @@ double conditioning(const point::Problem& scene, const accuracy::RunRecord& refe
     Start& start = moved.start;
     unsigned i = 0;
     start.phase += epsilon<double>();  // the force's phase is rounded to an ulp of a turn
-    for (double* value : {&o.damping, &o.forcing, &o.frequency, &o.load, &stops.restitution_lower,
-                          &stops.restitution_upper, &start.velocity, &start.phase, &start.displacement, &o.stiffness})
+    for (double* value : {&o.damping, &o.forcing, &o.frequency, &o.load, &stops.restitution_lower.R,
+                          &stops.restitution_upper.R, &start.velocity, &start.phase, &start.displacement, &o.stiffness})
       if (*value != 0.0 && !(value == &o.stiffness && *value == 1.0))
         *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();
     const double more_friction = 1 + (signs & 1 ? 1 : -1) * epsilon<double>();
     moved.friction.kinetic *= more_friction, moved.friction.static_level *= more_friction;
     LooseMass& loose = moved.loose;
     for (double* value :
-         {&loose.ratio, &loose.restitution_lower, &loose.restitution_upper, &loose.load, &loose.velocity})
+         {&loose.ratio, &loose.restitution_lower.R, &loose.restitution_upper.R, &loose.load, &loose.velocity})
       *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();
-    for (double* R : {&loose.restitution_lower, &loose.restitution_upper}) *R = std::min(*R, 1.0);
+    for (double* R : {&loose.restitution_lower.R, &loose.restitution_upper.R}) *R = std::min(*R, 1.0);
     for (double* wall : {&loose.lower, &loose.upper}) {
       const bool on_it = loose.place == *wall;
       *wall *= 1 + epsilon<double>();
@@ -105,7 +125,7 @@ double conditioning(const point::Problem& scene, const accuracy::RunRecord& refe
       *value *= 1 + epsilon<double>();
       if (on_it) start.displacement = *value;
     }
-    for (double* R : {&stops.restitution_lower, &stops.restitution_upper}) *R = std::min(*R, 1.0);
+    for (double* R : {&stops.restitution_lower.R, &stops.restitution_upper.R}) *R = std::min(*R, 1.0);
     start.displacement = std::clamp(start.displacement, stops.lower, stops.upper);
     const Deviation d = deviation(accuracy::reference_of(moved, reference.duration), reference);
     worst = std::max(worst, d.same_events ? d.largest() : std::numeric_limits<double>::infinity());
@@ -129,7 +149,7 @@ std::string configuration_of(const point::Problem& s, double duration) {
             << '\n'
             << soft << "_damping_" << which << " = " << (upper ? stops.damping_upper : stops.damping_lower);
       else
-        out << '\n' << rigid << '_' << which << " = " << (upper ? stops.restitution_upper : stops.restitution_lower);
+        out << law_text(upper ? stops.restitution_upper : stops.restitution_lower, rigid, which);
     }
   };
   tell(s.stops, "stop", "R");
