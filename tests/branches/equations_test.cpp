@@ -32,7 +32,7 @@ template <Effects E>
 struct HalfPeriod {
   using N = FiftyDigits;
   explicit HalfPeriod(const Scene& scene)
-      : R(scene.stops.restitution_upper),
+      : R(scene.stops.restitution_upper.R),
         g(scene.stops.upper),
         c(scene.oscillator),
         flow(c.propagator(N(pi<N>() / c.nu))),

@@ -24,7 +24,7 @@ inline std::array<double, 4> free_flow(double h, double k, double time) {
 /// components of the response at an impact of speed u.
 struct SymmetricMotion {
   explicit SymmetricMotion(const FollowedScene& scene)
-      : oscillator(oscillator_in_frame(scene)), gap(scene.stops.upper), R(scene.stops.restitution_upper) {
+      : oscillator(oscillator_in_frame(scene)), gap(scene.stops.upper), R(scene.stops.restitution_upper.R) {
     const double nu = oscillator.frequency;
     flow = free_flow(oscillator.damping, oscillator.stiffness, std::numbers::pi / nu);
     const double D = 1 + flow[0] + flow[3] + flow[0] * flow[3] - flow[1] * flow[2];

@@ -217,7 +217,7 @@ TEST(SoftWalls, a_stiff_wall_is_nearly_rigid) {
     rigid.loose.load = 0;
     const accuracy::RunRecord as_rigid = accuracy::record_of(rigid, 4);
     point::Problem soft = rigid;
-    soft.loose.damping_lower = soft.loose.damping_upper = damping_ratio_of(rigid.loose.restitution_lower);
+    soft.loose.damping_lower = soft.loose.damping_upper = damping_ratio_of(rigid.loose.restitution_lower.R);
     for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
       soft.loose.stiffness_lower = soft.loose.stiffness_upper = stiffnesses[i];
       const accuracy::RunRecord run = accuracy::record_of(soft, 4);

@@ -27,8 +27,8 @@ inline Sweep sweep_over(const std::vector<point::Problem>& scenes) {
                       axis(Parameter("stiffness"), [](const point::Problem& s) { return s.oscillator.stiffness; }),
                       axis(Parameter("stop_lower"), [](const point::Problem& s) { return s.stops.lower; }),
                       axis(Parameter("stop_upper"), [](const point::Problem& s) { return s.stops.upper; }),
-                      axis(Parameter("R_lower"), [](const point::Problem& s) { return s.stops.restitution_lower; }),
-                      axis(Parameter("R_upper"), [](const point::Problem& s) { return s.stops.restitution_upper; }),
+                      axis(Parameter("R_lower"), [](const point::Problem& s) { return s.stops.restitution_lower.R; }),
+                      axis(Parameter("R_upper"), [](const point::Problem& s) { return s.stops.restitution_upper.R; }),
                       axis(Parameter("x0"), [](const point::Problem& s) { return s.start.displacement; }),
                       axis(Parameter("v0"), [](const point::Problem& s) { return s.start.velocity; }),
                       axis(Parameter("phase"), [](const point::Problem& s) { return s.start.phase; })};
@@ -128,10 +128,10 @@ inline point::Problem moved(point::Problem scene, std::uint64_t index) {
   Stops& stops = scene.stops;
   Start& start = scene.start;
   start.phase += random.sign() * 1e-15;
-  for (double* value : {&o.damping, &o.forcing, &o.frequency, &o.load, &stops.restitution_lower,
-                        &stops.restitution_upper, &start.velocity})
+  for (double* value : {&o.damping, &o.forcing, &o.frequency, &o.load, &stops.restitution_lower.R,
+                        &stops.restitution_upper.R, &start.velocity})
     *value *= 1 + random.sign() * 1e-15;
-  for (double* R : {&stops.restitution_lower, &stops.restitution_upper}) *R = std::min(*R, 1.0);
+  for (double* R : {&stops.restitution_lower.R, &stops.restitution_upper.R}) *R = std::min(*R, 1.0);
   const bool on_lower = start.displacement == stops.lower, on_upper = start.displacement == stops.upper;
   for (double* value : {&stops.lower, &stops.upper, &start.displacement}) *value *= 1 + random.sign() * 1e-15;
   if (has_soft_stop(stops))
