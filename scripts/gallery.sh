@@ -51,6 +51,12 @@ draw bouncing_ball --only section_v --size 5x3.5
   --title 'Impacts of a ball on a shaken table' --format svg -o "$out"
 draw gear_rattle --only x_min,x_max,impact_power --size 7x3.5
 draw harvester --only impact_power --size 5x3.8
+for R in 0.92 0.75; do
+  "$clatter" run "$source_dir/configs/measured_stop.toml" --set machine.R=$R -o "$work/$R.h5" -q
+done
+"$clatter" run "$source_dir/configs/measured_stop.toml" -o "$work/measured_stop.h5" -q
+"$source_dir/scripts/plot.py" "$work"/{measured_stop,0.92,0.75}.h5 --only time_to_rest --size 5x3.8 --format svg -o "$work"
+mv "$work/measured_stop+0.92+0.75.svg" "$out/measured_stop.svg"
 draw soft_bumper --only contact_force_max --log xy --size 5x3.5
 draw slide --only x_max --ylim '0 mm, 6.6 mm' --size 5x3.8
 "$clatter" run "$source_dir/configs/slide.toml" --set machine.friction='12 N' --set machine.frequency='4 Hz' \
