@@ -184,7 +184,7 @@ void set_speed_tables(const Settings& settings, GivenScene& scene) {
       if (const Setting* const given = table_at(settings, law, side)) {
         auto& lower = law.R.is_loose() ? scene.loose.restitution_lower : scene.stops.restitution_lower;
         auto& upper = law.R.is_loose() ? scene.loose.restitution_upper : scene.stops.restitution_upper;
-        (side == Side::lower ? lower : upper).table = std::make_shared<const SpeedTable>(speed_table(*given));
+        (side == Side::lower ? lower : upper).table = kept(speed_table(*given));
       }
 }
 

@@ -10,8 +10,9 @@ template <Effects E>
 SettleTask<E>::SettleTask(const point::WorkItem& item)
     : item_(item),
       fallback_({item_.problem, stops_in_reach(item_.problem.stops, item_.effects), limits_of(item_.problem)}, false),
-      log_area_(E.soft ? 0.0
-                       : 2 * std::log(std::max(loop().stops().restitution_lower.R, loop().stops().restitution_upper.R))) {}
+      log_area_(E.soft
+                    ? 0.0
+                    : 2 * std::log(std::max(loop().stops().restitution_lower.R, loop().stops().restitution_upper.R))) {}
 
 template <Effects E>
 std::optional<SettledPoint<E>> SettleTask<E>::begin(LaneView& lane) {

@@ -19,7 +19,7 @@ struct ChatterSum {
 
 /// Sums the flights of a chatter with pressing acceleration a > 0 at the rebound (Budd & Dux 1994; Nordmark &
 /// Piiroinen 2009, carried one order further): S = T - (h + j/a) T^2/3 (eqs. 23 and 24), the error bounded by
-/// (r^2 + c) T^3 (eq. 25), which leaves room for all later terms while r T is small; by eq. 87 if R depends on the
+/// (r^2 + c) T^3 (eq. 25), which leaves room for all later terms while r T is small; by eq. 88 if R depends on the
 /// speed.
 template <class Number, Effects E>
 [[nodiscard]] ChatterSum<Number> chatter_sum(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
@@ -35,7 +35,7 @@ template <class Number, Effects E>
 }
 
 /// The same under a restitution 1 - C v^p of viscoelastic bodies, by which the speeds of a chatter fall more slowly
-/// than those of a series (eq. 88).
+/// than those of a series (eq. 89).
 template <class Number, Effects E>
 [[nodiscard]] ChatterSum<Number> viscoelastic_chatter_sum(const ArcConstants<Number, E>& constants,
                                                           const Stop<Number>& stop, const ContactForce<Number>& press,

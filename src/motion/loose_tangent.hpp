@@ -24,11 +24,11 @@ namespace clatter::motion {
 /// velocities go on there, so that D = 1. It is kept times a power of two, so that nothing overflows.
 class LooseTangent {
  public:
-  /// The law of a wall.
-  [[nodiscard]] const Restitution<double>& law(Side wall) const { return rule_.law(wall); }
-
   explicit LooseTangent(const Scene& scene)
       : stops_(scene.stops), loose_(scene.loose), rule_(loose_), is_rough_(has_loose_friction(loose_)) {}
+
+  /// The law of a wall.
+  [[nodiscard]] const Restitution<double>& law(Side wall) const { return rule_.law(wall); }
 
   template <class A>
   void arc(const A& arc, double, double length) {

@@ -12,9 +12,9 @@
 namespace clatter::motion {
 
 /// The derivative of a motion with respect to its start: free motion over the arcs (eq. 7), the saltation matrix at
-/// each impact (eq. 27; Nordmark 1991) and each reversal of a slip (eq. 64), 0 after a rest; of a stick the place is
-/// left. Kept as a rotation times a triangle, so that the determinant (eq. 28) keeps its digits however far apart the
-/// multipliers are, times a power of two, so that nothing overflows.
+/// each impact (eqs. 27 and 87; Nordmark 1991) and each reversal of a slip (eq. 64), 0 after a rest; of a stick the
+/// place is left. Kept as a rotation times a triangle, so that the determinant (eq. 28) keeps its digits however far
+/// apart the multipliers are, times a power of two, so that nothing overflows.
 template <class Number>
 class TangentMap {
  public:

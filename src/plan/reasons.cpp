@@ -126,7 +126,7 @@ Reason stop_reason(const point::Problem& scene, const Requirements& needs, bool 
 /// A law of restitution in words.
 std::string described(const Restitution<double>& law) {
   const std::string from = law.below > 0 ? " from the speed " + text(law.below) + " on" : "";
-  if (law.table) return "R by a table of speeds" + from;
+  if (law.table != nullptr) return "R by a table of speeds" + from;
   if (law.exponent == 0) return "R = " + text(law.R) + from;
   return "R = " + text(law.R) + " at the speed " + text(law.reference) + ", exponent " + text(law.exponent) + from;
 }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -24,6 +23,10 @@ struct SpeedTable {
   friend bool operator==(const SpeedTable&, const SpeedTable&) = default;
 };
 
+/// A table that lasts as long as the program, the same one for equal tables: scenes are copied often, and by all
+/// threads.
+[[nodiscard]] const SpeedTable* kept(const SpeedTable& table);
+
 /// Newton's law of restitution (eq. 4) with a share of the speed that is left, for every number type; SIMD lanes take
 /// it from here.
 template <class Number>
@@ -43,12 +46,12 @@ struct ConstantRestitution {
 /// 1 - (1 - R) (v/V)^p (eq. 86), and below a speed nothing rebounds.
 template <class Number>
 struct Restitution {
-  Number R{1.0};                              ///< 0 ... 1; at the speed V
-  Number exponent{0.0};                       ///< p, 0 ... 1; 0: R is the same at each speed
-  Number reference{1.0};                      ///< V > 0
-  Number below{0.0};                          ///< the speed below which nothing rebounds, >= 0
-  std::shared_ptr<const SpeedTable> table{};  ///< in place of R; its speeds are in
-  Number unit{1.0};                           ///< this unit
+  Number R{1.0};                     ///< 0 ... 1; at the speed V
+  Number exponent{0.0};              ///< p, 0 ... 1; 0: R is the same at each speed
+  Number reference{1.0};             ///< V > 0
+  Number below{0.0};                 ///< the speed below which nothing rebounds, >= 0
+  const SpeedTable* table{nullptr};  ///< in place of R, one that is `kept`; its speeds are in
+  Number unit{1.0};                  ///< this unit
 
   Restitution() = default;
   /// The same R at each speed.
@@ -75,7 +78,7 @@ struct Restitution {
   [[nodiscard]] Number share_at_rest() const {
     if (is_constant()) return R;
     if (below > 0) return Number(0);
-    if (table) return Number(table->knots.front().R);
+    if (table != nullptr) return Number(table->knots.front().R);
     return R < 1 ? Number(1) : R;
   }
   /// Whether the slowest impacts take speed, so that flights on a stop that presses the mass become ever shorter.
@@ -83,13 +86,13 @@ struct Restitution {
   /// Whether impacts of some speed take energy.
   [[nodiscard]] bool takes_energy() const {
     if (!(share_at_rest() >= 1) || is_power()) return true;
-    if (table)
+    if (table != nullptr)
       for (const SpeedTable::Knot& knot : table->knots)
         if (knot.R < 1) return true;
     return false;
   }
   /// Whether R tends to 1 with the speed, so that the speeds of a chatter fall more slowly than those of a series.
-  [[nodiscard]] bool is_power() const { return !table && !(below > 0) && exponent > 0 && R < 1; }
+  [[nodiscard]] bool is_power() const { return table == nullptr && !(below > 0) && exponent > 0 && R < 1; }
 
   [[nodiscard]] Number after(const Number& before) const {
     return ConstantRestitution<Number>{share(before)}.after(before);
@@ -124,7 +127,7 @@ struct Restitution {
   [[nodiscard]] AtRest at_rest() const {
     const Number everywhere(std::numeric_limits<double>::infinity());
     if (below > 0) return {Number(0), below};
-    if (!table) return {Number(0), everywhere};
+    if (table == nullptr) return {Number(0), everywhere};
     const Piece piece = piece_at(Number(0));
     return {piece.bend / 2, piece.end};
   }
@@ -135,11 +138,7 @@ struct Restitution {
     for (Number* const speed : {&below, &reference, &unit}) *speed = *speed * factor;
   }
 
-  friend bool operator==(const Restitution& one, const Restitution& other) {
-    const bool have_same_table = one.table == other.table || (one.table && other.table && *one.table == *other.table);
-    return one.R == other.R && one.exponent == other.exponent && one.reference == other.reference &&
-           one.below == other.below && have_same_table && one.unit == other.unit;
-  }
+  friend bool operator==(const Restitution&, const Restitution&) = default;
 
  private:
   /// The law near a speed.
@@ -152,7 +151,7 @@ struct Restitution {
 
   [[nodiscard]] Piece piece_at(const Number& speed) const {
     if (speed < below) return {Number(0), Number(0), Number(0), below};
-    if (table) return piece_of_table(speed);
+    if (table != nullptr) return piece_of_table(speed);
     if (is_always_zero(exponent)) return {R, R};
     return piece_of_power(speed);
   }

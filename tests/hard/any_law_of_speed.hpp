@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
 
 #include "hard/any_rubbing_machine.hpp"
@@ -35,7 +34,7 @@ inline void draw_law(support::Random& random, Restitution<double>& law, double f
     law.exponent = random.happens(0.7) ? random.logarithmic(0.02, 0.15) : random.uniform(0.15, 0.95);
     law.reference = fast * random.logarithmic(0.1, 10);
   } else if (kind < 0.85) {
-    law.table = std::make_shared<const SpeedTable>(any_knots(random, fast));
+    law.table = kept(any_knots(random, fast));
   }
   if (kind > 0.85 || random.happens(0.25)) law.below = fast * random.logarithmic(1e-3, 0.7);
   if (random.happens(0.3)) law.unit = random.logarithmic(0.1, 10);

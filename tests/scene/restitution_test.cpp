@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "math/dual.hpp"
@@ -19,7 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Restitution<double> by_table(std::vector<SpeedTable::Knot> knots, double unit = 1.0) {
   Restitution<double> law;
-  law.table = std::make_shared<const SpeedTable>(SpeedTable{std::move(knots)});
+  law.table = kept(SpeedTable{std::move(knots)});
   law.unit = unit;
   return law;
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "math/fifty_digits.hpp"
@@ -27,7 +26,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Law by_knots(const std::vector<SpeedTable::Knot>& knots) {
   Law law;
-  law.table = std::make_shared<const SpeedTable>(SpeedTable{knots});
+  law.table = kept(SpeedTable{knots});
   return law;
 }
 Law by_power(double R, double exponent, double reference) {
