@@ -75,21 +75,25 @@ constexpr std::string_view
         "and their R, straight lines between, constant beyond";
 constexpr std::array keys_of_tables{
     table_of("scene", "R_of_speed", by_speed, "R", "xs = 1.0\n"),
-    table_of("scene", "R_of_speed_lower", "that of the lower stop, in place of R_lower", "R_lower", "xs = 1.0\n"),
-    table_of("scene", "R_of_speed_upper", "that of the upper stop, in place of R_upper", "R_upper", "xs = 1.0\n"),
+    table_of("scene", "R_of_speed_lower", "restitution of the lower stop by impact speed, in place of R_lower",
+             "R_lower", "xs = 1.0\n"),
+    table_of("scene", "R_of_speed_upper", "restitution of the upper stop by impact speed, in place of R_upper",
+             "R_upper", "xs = 1.0\n"),
     table_of("scene", "loose_R_of_speed", by_wall_speed, "loose_R", loose_walls),
-    table_of("scene", "loose_R_of_speed_lower", "that of the lower wall, in place of loose_R_lower", "loose_R_lower",
-             loose_walls),
-    table_of("scene", "loose_R_of_speed_upper", "that of the upper wall, in place of loose_R_upper", "loose_R_upper",
-             loose_walls),
+    table_of("scene", "loose_R_of_speed_lower", "restitution of the lower wall by speed, in place of loose_R_lower",
+             "loose_R_lower", loose_walls),
+    table_of("scene", "loose_R_of_speed_upper", "restitution of the upper wall by speed, in place of loose_R_upper",
+             "loose_R_upper", loose_walls),
     table_of("machine", "R_of_speed", by_speed, "R", machine_stops),
-    table_of("machine", "R_of_speed_lower", "that of the lower stop, in place of R_lower", "R_lower", machine_stops),
-    table_of("machine", "R_of_speed_upper", "that of the upper stop, in place of R_upper", "R_upper", machine_stops),
+    table_of("machine", "R_of_speed_lower", "restitution of the lower stop by impact speed, in place of R_lower",
+             "R_lower", machine_stops),
+    table_of("machine", "R_of_speed_upper", "restitution of the upper stop by impact speed, in place of R_upper",
+             "R_upper", machine_stops),
     table_of("machine", "loose_R_of_speed", by_wall_speed, "loose_R", machine_walls),
-    table_of("machine", "loose_R_of_speed_lower", "that of the lower wall, in place of loose_R_lower", "loose_R_lower",
-             machine_walls),
-    table_of("machine", "loose_R_of_speed_upper", "that of the upper wall, in place of loose_R_upper", "loose_R_upper",
-             machine_walls)};
+    table_of("machine", "loose_R_of_speed_lower", "restitution of the lower wall by speed, in place of loose_R_lower",
+             "loose_R_lower", machine_walls),
+    table_of("machine", "loose_R_of_speed_upper", "restitution of the upper wall by speed, in place of loose_R_upper",
+             "loose_R_upper", machine_walls)};
 
 /// The keys along which a motion can be followed: none is the friction of a loose mass.
 std::vector<std::string_view> keys_to_follow() {

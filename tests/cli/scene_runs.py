@@ -15,11 +15,17 @@ LOGGED = ("impact_count", "impact_tau", "impact_stop", "impact_v_")
 
 
 def keys_of_law(scene, law):
-    """Those of a restitution that depends on the speed."""
+    """Those of a restitution, which may depend on the speed."""
     pre, _, side = law.rpartition("R")
-    exponent, below = pre + "R_exponent" + side, pre + "R_below" + side
-    keys = [exponent, pre + "R_reference_speed" + side] if getattr(scene, exponent) else []
+    exponent, below, table = (f"{pre}R_{name}{side}" for name in ("exponent", "below", "of_speed"))
+    power = [exponent, f"{pre}R_reference_speed{side}"] if getattr(scene, exponent) else []
+    keys = [table] if getattr(scene, table) else [law, *power]
     return keys + ([below] if getattr(scene, below) else [])
+
+
+def value_of(scene, key):
+    value = getattr(scene, key)
+    return ", ".join(f"{v!r}: {R!r}" for v, R in value) if isinstance(value, tuple) else value
 
 
 def keys_of(scene):
@@ -28,16 +34,16 @@ def keys_of(scene):
     for side in ("_lower", "_upper"):
         if math.isfinite(getattr(scene, "stop" + side)):
             is_soft = math.isfinite(getattr(scene, "stop_stiffness" + side))
-            keys += ["stop" + side] + (["stop_stiffness" + side, "stop_damping" + side] if is_soft else ["R" + side])
+            keys += ["stop" + side] + (["stop_stiffness" + side, "stop_damping" + side] if is_soft else [])
             keys += [] if is_soft else keys_of_law(scene, "R" + side)
     optional = "stop_amplitude base_amplitude stop_phase friction friction_static".split()
     keys += [key for key in optional if getattr(scene, key) != 0]
     if scene.loose_mass:
-        keys += "loose_mass loose_R_lower loose_R_upper loose_load loose_x0 loose_v0".split()
+        keys += "loose_mass loose_load loose_x0 loose_v0".split()
         for side in ("_lower", "_upper"):
-            if math.isfinite(getattr(scene, "loose" + side)):
-                keys += ["loose" + side, *keys_of_law(scene, "loose_R" + side)]
-    return {key: getattr(scene, key) for key in keys}
+            is_there = math.isfinite(getattr(scene, "loose" + side))
+            keys += ["loose" + side, *keys_of_law(scene, "loose_R" + side)] if is_there else ["loose_R" + side]
+    return {key: value_of(scene, key) for key in keys}
 
 
 def machine_keys(mass):
@@ -75,17 +81,21 @@ class Program:
         self.program, self.folder, self.count = program, Path(folder), 0
 
     def run(self, scenes, time, observe, *words, section="[scene]\n", keys_of=keys_of):
-        """A sweep for each kind of scene, since a key of one kind of stop is refused beside the other kind.
+        """A sweep for each kind of scene, since a key of one kind of stop is refused beside the other kind, and for
+        each text, since texts are no axes.
 
         `section` is that of the scene, and keys_of(scene) the values of the keys that are its axes.
         """
         kinds = {}
         for i, scene in enumerate(scenes):
-            kinds.setdefault(tuple(keys_of(scene)), []).append(i)
+            values = keys_of(scene)
+            texts = tuple((key, value) for key, value in values.items() if isinstance(value, str))
+            kinds.setdefault((tuple(key for key in values if not isinstance(values[key], str)), texts), []).append(i)
         runs = Runs(logs=[None] * len(scenes))
-        for keys, points in kinds.items():
+        for (keys, texts), points in kinds.items():
+            constant = section + "".join(f'{key} = "{value}"\n' for key, value in texts)
             lists = "".join(f"{key} = {numbers([keys_of(scenes[i])[key] for i in points])}\n" for key in keys)
-            lists = f"{section}[sweep]\n{lists}linked = \"{', '.join(keys)}\"\n"
+            lists = f"{constant}[sweep]\n{lists}linked = \"{', '.join(keys)}\"\n"
             self.sweep(lists, points, runs, time, observe, *words)
         return runs
 

@@ -86,7 +86,7 @@ class OfRestitutionBySpeed(Relations):
 
     @staticmethod
     def drawn(count, seed):
-        return by_speed(drawn(count, seed), seed)
+        return by_speed(drawn(count, seed), seed, tables=0)  # they have no derivatives by their speeds
 
 
 class OfRandomScenes(Relations):
