@@ -289,9 +289,9 @@ TEST(Machines, with_soft_walls_are_told_as_taylor_series_tell_them) {
 }
 
 TEST(Machines, of_which_the_restitution_depends_on_the_speed_are_told_as_taylor_series_tell_them) {
-  expect_told_as_by_taylor_series({"combined, by speed", by_speed<any_machine>, 20});
-  expect_told_as_by_taylor_series({"rubbing, by speed", by_speed<any_rubbing_machine>, 20});
-  expect_told_as_by_taylor_series({"soft walls, by speed", by_speed<any_soft_walled_machine>, 10});
+  expect_told_as_by_taylor_series({"combined, by speed", by_speed<any_machine>, 5});
+  expect_told_as_by_taylor_series({"rubbing, by speed", by_speed<any_rubbing_machine>, 5});
+  expect_told_as_by_taylor_series({"soft walls, by speed", by_speed<any_soft_walled_machine>, 5});
 }
 
 TEST(Machines, of_which_the_restitution_depends_on_the_speed_keep_their_energy_but_for_work_and_losses) {
