@@ -81,6 +81,9 @@ class Ball {
   friend Ball exp(const Ball& a) {
     return made([&](arb_t z) { arb_exp(z, a.x_, bits); });
   }
+  friend Ball log(const Ball& a) {
+    return made([&](arb_t z) { arb_log(z, a.x_, bits); });
+  }
   friend Ball asin(const Ball& a) {
     return made([&](arb_t z) { arb_asin(z, a.x_, bits); });
   }

@@ -3,69 +3,10 @@
 #include <utility>
 
 #include "field.hpp"
+#include "scene_fields.hpp"
 
 namespace verify {
 namespace {
-
-std::optional<Certificate::StopNumbers> stop_of(const Field& scene, const char* name) {
-  const auto field = scene.find(name);
-  if (!field) return std::nullopt;
-  Certificate::StopNumbers stop;
-  stop.position = field->get("position").number();
-  const auto R = field->find("R"), stiffness = field->find("stiffness");
-  if (R.has_value() == stiffness.has_value())
-    field->refuse(R ? "has R and stiffness" : "has neither R nor stiffness", "give one of them");
-  stop.soft = stiffness.has_value();
-  if (R) stop.R = R->number_from(0, 1);
-  if (stiffness) stop.stiffness = stiffness->number_from(0, Field::infinity, false);
-  if (stiffness) stop.damping = field->get("damping").number_from(0, Field::infinity);
-  return stop;
-}
-
-/// The levels of dry friction of a scene, or of its loose mass.
-template <class Numbers>
-void read_friction(const Field& field, Numbers& numbers) {
-  if (const auto friction = field.find("friction")) numbers.friction = friction->number_from(0, Field::infinity);
-  numbers.friction_static = numbers.friction;
-  const auto level = field.find("friction_static");
-  if (!level) return;
-  numbers.friction_static = level->number_from(0, Field::infinity);
-  if (numbers.friction_static < numbers.friction)
-    level->refuse("is below friction", "give the same or more, or leave it out");
-}
-
-/// A loose mass and the walls of its housing.
-Certificate::LooseNumbers loose_of(const Field& field) {
-  Certificate::LooseNumbers loose{
-      field.get("mass").number_from(0, Field::infinity, false), {}, field.get("load").number(), {}};
-  const auto both = field.find("R");
-  for (const Side side : {Side::lower, Side::upper}) {
-    const auto wall = field.find(name_of(side));
-    if (both) loose.R[index_of(side)] = both->number_from(0, 1);
-    if (!wall) continue;
-    loose.walls[index_of(side)] = wall->get("position").number();
-    const auto own = wall->find("R");
-    if (own && both) own->refuse("is given beside that of both walls", "leave one of them out");
-    if (!both) loose.R[index_of(side)] = wall->get("R").number_from(0, 1);
-  }
-  const auto& [lower, upper] = loose.walls;
-  if (!lower && !upper) field.refuse("has no walls", "give lower, upper or both");
-  read_friction(field, loose);
-  if (lower && upper && !(*lower < *upper)) field.refuse("has its lower wall above the upper one", "exchange them");
-  return loose;
-}
-
-Certificate::SceneNumbers scene_of(const Field& field) {
-  Certificate::SceneNumbers scene{
-      field.get("h").number_from(0, Field::infinity),         field.get("k").number(),    field.get("f").number(),
-      field.get("nu").number_from(0, Field::infinity, false), field.get("load").number(), field.get("phase").number(),
-      {stop_of(field, "lower"), stop_of(field, "upper")}};
-  read_friction(field, scene);
-  if (scene.stops[0] && scene.stops[1] && !(scene.stops[0]->position < scene.stops[1]->position))
-    field.refuse("has its lower stop above the upper one", "exchange them");
-  if (const auto loose = field.find("loose")) scene.loose = loose_of(*loose);
-  return scene;
-}
 
 /// Walls are named as such beside stops; else they stand in the place of these.
 ClaimedEvent event_of(const Field& field, const Certificate::SceneNumbers& scene) {
@@ -331,6 +272,10 @@ Certificate read_certificate(const std::string& line) {
   certificate.periodic = kind != "transient";
   if (kind == "special" && certificate.scene.loose)
     claim.refuse("is special beside a loose mass", "claim transient or periodic motion");
+  if (kind == "special")
+    for (const auto& stop : certificate.scene.stops)
+      if (stop && stop->law)
+        claim.refuse("is special with a restitution that depends on the speed", "claim transient or periodic motion");
   if (kind == "special") certificate.special = special_of(root, certificate.scene);
   if (certificate.periodic) read_periodic(root, certificate);
   read_start(root.get("start"), certificate);

@@ -64,10 +64,24 @@ struct Word {
 
 /// One line of a file, in the terms of the README.md of this folder.
 struct Certificate {
+  /// Restitution that depends on the speed of an impact.
+  struct LawNumbers {
+    struct Knot {
+      Number speed, R;  ///< the speed in units
+    };
+    Number R;
+    std::optional<Number> exponent{};
+    Number reference_speed{1.0}, below{};
+    std::vector<Knot> table{};  ///< in place of R
+    Number unit{1.0};
+
+    [[nodiscard]] Law in_balls() const;
+  };
   struct StopNumbers {
     Number position;
     bool soft = false;
     Number R, stiffness, damping;
+    std::optional<LawNumbers> law{};  ///< in place of R
   };
   struct LooseNumbers {
     Number mass;
@@ -75,6 +89,7 @@ struct Certificate {
     Number load;
     std::array<std::optional<Number>, 2> walls;
     Number friction{}, friction_static{};
+    std::array<std::optional<LawNumbers>, 2> laws{};  ///< [wall] in place of R
   };
   struct SceneNumbers {
     Number h, k, f, nu, load, phase;

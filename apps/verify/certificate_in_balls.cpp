@@ -57,12 +57,22 @@ BasicScene<T> scene_made(const Certificate::SceneNumbers& shape, const Of& of) {
       stop.kappa = of_stop(&At::stiffness), stop.zeta = of_stop(&At::damping), stop.h_s = stop.zeta * sqrt(stop.kappa);
     else
       stop.R = of_stop(&At::R);
+    if (shape.stops[i]->law) stop.law = shape.stops[i]->law->in_balls();
     scene.stops[i] = stop;
   }
   return scene;
 }
 
 }  // namespace
+
+/// R = 1 stays 1 at each speed.
+Law Certificate::LawNumbers::in_balls() const {
+  Law law{R.ball()};
+  if (exponent && R < Number(1.0)) law.exponent = exponent->ball(), law.reference = reference_speed.ball();
+  law.below = below.ball();
+  for (const Knot& knot : table) law.knots.push_back({knot.speed.ball() * unit.ball(), knot.R.ball()});
+  return law;
+}
 
 Scene Certificate::scene_in_balls() const {
   Scene made = scene_made<Ball>(scene, [&](const auto& number_in) { return number_in(scene).ball(); });
@@ -73,6 +83,8 @@ Scene Certificate::scene_in_balls() const {
   loose.is_let_go_gently = scene.loose->friction == scene.loose->friction_static;
   for (std::size_t i = 0; i < 2; ++i)
     if (scene.loose->walls[i]) loose.walls[i] = scene.loose->walls[i]->ball();
+  for (std::size_t i = 0; i < 2; ++i)
+    if (scene.loose->laws[i]) loose.laws[i] = scene.loose->laws[i]->in_balls();
   made.loose = loose;
   return made;
 }

@@ -38,6 +38,7 @@ struct Dual {
     const Ball power = exp(a.value);
     return {power, power * a.slope};
   }
+  friend Dual log(const Dual& a) { return {log(a.value), a.slope / a.value}; }
   friend Dual asin(const Dual& a) { return {asin(a.value), a.slope / sqrt(Ball(1) - square(a.value))}; }
   friend std::pair<Dual, Dual> sin_cos(const Dual& a) {
     const auto [sine, cosine] = sin_cos(a.value);

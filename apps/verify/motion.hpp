@@ -143,7 +143,15 @@ class Motion {
   void collapse_on(Side side);
   void start_with_release(const Start& start);
   bool strikes_before(const Ball& time);
+  /// Bounds of the acceleration towards a stop.
+  struct Pull {
+    Ball least, most;
+  };
+  [[nodiscard]] Ball press_of(Side side, const Ball& time) const;
+  [[nodiscard]] Pull pull_in(Side side, const Ball& window, const Ball& height, const Ball& fastest) const;
+  void require_far_off(Side side, const Ball& height) const;
   [[nodiscard]] Rebounds rebounds(Side side, const Ball& time, const Ball& w) const;
+  [[nodiscard]] Rebounds slowing_rebounds(Side side, const Ball& time, const Ball& w) const;
   void require_off_walls(const Rebounds& left) const;
   Event finish_chatter_on_stop(const ChatterAim& aim);
   Event finish_rest_on_stop(const Ball& end);
@@ -183,8 +191,8 @@ class Motion {
   MovingSet set_;  ///< in (x, x', z, z') at `time_`, or before the event on a surface with the time in place of one
   std::optional<std::size_t> surface_{};  ///< which: 0: x + q x' = place, 1: x' = 0, 2: z is that of a wall, 3: z' = 0
   Dual time_, place_, q_;
-  Dual factor_{1};          ///< after the event x' is multiplied by it, while y' goes on;
-  Ball kick_{0}, turn_{1};  ///< or x' grows by kick z', and z' is multiplied by turn
+  Rebound main_{};   ///< what the event does to x', while y' goes on,
+  Rebound loose_{};  ///< or to z', while the common centre goes on
   Mode mode_ = Mode::free;
   Side side_ = Side::lower;                     ///< of the stop of the mode, or that was left
   int vanishing_ = 0;                           ///< `Margin::vanishing` of the margin that the last event crossed

@@ -27,11 +27,12 @@ class Motion::ChatterInHousing {
   [[nodiscard]] Ball bound_of_place(const Change& change) const;
   [[nodiscard]] Change grown(const FirstChange& first, const Change& change) const;
   [[nodiscard]] Ball area(const FirstChange& first) const;
+  [[nodiscard]] Ball share_of_rebounds(Side side) const;
 
   const LooseMass& loose_;
   Side side_;
   Ball h_, k_;                    ///< of the main mass alone
-  Ball R_;                        ///< of the wall
+  Ball R_, first_;                ///< of the rebounds; how the first speed changes with that before
   Ball time_, w_, now_;           ///< of the impact; the speed after it; -zeta'' there
   Ball longest_, height_, fast_;  ///< bounds of the time of all rebounds, of zeta and of its rate
   Ball least_, most_, jerk_;      ///< bounds of -zeta'' and of its rate
@@ -41,17 +42,16 @@ class Motion::ChatterInHousing {
   Vector kick_;          ///< bounds of what zeta does to X and X', over its time integral
 };
 
-Motion::ChatterInHousing::ChatterInHousing(const Motion& motion)
-    : loose_(*motion.scene_.loose), side_(motion.wall_), R_(loose_.restitution(side_)) {
+Motion::ChatterInHousing::ChatterInHousing(const Motion& motion) : loose_(*motion.scene_.loose), side_(motion.wall_) {
   const Scene& scene = motion.scene_;
   if (loose_.is_rough()) throw Undecided("a chatter on a wall under friction in the housing");
   const Flow &alone = motion.flow(), &both = motion.flows_->as_one[motion.number_of_flow()];
   const Four before = motion.set_.hull();
-  time_ = before[2], w_ = abs(motion.turn_ * before[3]), now_ = (Ball(1) + loose_.mass) * motion.pressing();
+  time_ = before[2], w_ = abs(motion.loose_.after(before[3])), now_ = (Ball(1) + loose_.mass) * motion.pressing();
+  fast_ = Ball(2) * w_.upper(), R_ = share_of_rebounds(side_), first_ = abs(motion.loose_.slope(before[3]));
   h_ = alone.damping(), k_ = alone.stiffness(), q_ = loose_.share() / (Ball(1) + loose_.mass);
   if (!now_.is_positive() || !(R_ < Ball(1))) throw Undecided("whether a chatter ends");
-  longest_ = (Ball(4) * w_ / (now_ * (Ball(1) - R_))).upper();
-  height_ = (square(w_) / now_).upper(), fast_ = Ball(2) * w_.upper();
+  longest_ = (Ball(4) * w_ / (now_ * (Ball(1) - R_))).upper(), height_ = (square(w_) / now_).upper();
   const Ball window = Ball::hull(Ball(0), longest_);
   along_ = both.propagator(window);
   const Flow::Flight centre(both, time_, before[0], before[1] + loose_.share() * before[3]);
@@ -73,6 +73,14 @@ Motion::ChatterInHousing::ChatterInHousing(const Motion& motion)
            q_ * (abs(k_ * along_.d) + Ball(2) * h_ * abs(bend))};
 }
 
+/// R of the wall, which must be the same for all rebounds: none comes back faster than twice the first one's speed.
+Ball Motion::ChatterInHousing::share_of_rebounds(Side side) const {
+  if (!loose_.law(side)) return loose_.restitution(side);
+  const auto share = loose_.law(side)->only_share_up_to(fast_);
+  if (!share) throw Undecided("a chatter on a wall whose restitution depends on the speed");
+  return *share;
+}
+
 /// As of a chatter on a stop: with a- <= -zeta'' <= a+ the times are within geometric series.
 Motion::Rebounds Motion::ChatterInHousing::rebounds() const {
   if (!least_.is_positive() || !(square(w_) / (Ball(2) * least_) <= height_)) throw Undecided("whether a chatter ends");
@@ -92,7 +100,7 @@ Motion::Rebounds Motion::ChatterInHousing::rebounds() const {
   const FirstChange by[4] = {{zero, zero, one, zero},
                              {zero, zero, zero, one},
                              {one, zero, centre_speed_.x, centre_speed_.y},
-                             {zero, R_, zero, loose_.share()}};
+                             {zero, first_, zero, loose_.share()}};
   for (std::size_t i = 0; i < 4; ++i) {
     const Ball change = area(by[i]);
     left.uncertainty[0][i] = Ball::around_zero(kick_.x * change);
@@ -172,7 +180,7 @@ Event Motion::finish_chatter_in_housing(const ChatterAim& aim) {
 /// The state after all rebounds: that of a motion which the wall presses at once, and bounds of the difference.
 void Motion::press_at_last(const Rebounds& left) {
   const Ball& share = scene_.loose->share();
-  kick_ = share, turn_ = Ball(0), pressed_ = true;
+  loose_ = Rebound{Dual(0)}, pressed_ = true;
   const State centre = state_of(set_.centre()), hull = state_of(set_.hull());
   press_begin_ = hull.time + left.time;
   const Ball end = press_begin_.upper(), duration = end - hull.time;
@@ -299,8 +307,7 @@ Event Motion::strike(Side side) {
   const Four before = set_.hull();
   Event event{Kind::impact, side, before[2], before[3], Ball(0)};
   event.of_wall = true;
-  const Ball& R = scene_.loose->restitution(side);
-  kick_ = (Ball(1) + R) * scene_.loose->share(), turn_ = -R;
+  loose_ = scene_.loose->rebound(side, event.v);
   const Ball v = state_of(set_.hull()).y[1];
   if (resting_) {
     if (!(Ball(sign_of(side_)) * v).is_negative()) throw Undecided("whether both masses strike at one instant");
@@ -312,7 +319,7 @@ Event Motion::strike(Side side) {
     heading_ = v.is_positive() ? 1 : -1;
   }
   on_wall_ = true;
-  if (R.is_zero())
+  if (loose_.is_none())
     press_or_leave();
   else
     slide_to(-sign_of(side), 1, 0);
@@ -333,7 +340,7 @@ void Motion::press_on() { press_or_leave(); }
 /// In an impact of the main mass on a stop the loose one keeps its velocity y'.
 void Motion::shake(const Event& event) {
   const Ball w = state_of(set_.hull()).y[3];
-  if (pressed_ && on_wall_ && !(Ball(sign_of(wall_)) * (Ball(1) - factor_.value) * event.v).is_negative())
+  if (pressed_ && on_wall_ && !(Ball(sign_of(wall_)) * main_.change(event.v)).is_positive())
     throw Undecided("whether both masses strike at one instant");
   if (rubs() && !w.is_positive() && !w.is_negative()) throw Undecided("whether the loose mass stops in an impact");
   slide_to(w.is_positive() ? 1 : -1, !pressed_ ? loose_vanishing_ : on_wall_ ? 1 : 0, 0);

@@ -54,7 +54,7 @@ void Motion::collapse_on(Side side) {
 /// The mass after an impact: on its way back, or without speed, when the force holds it or pulls it away at once.
 void Motion::rebound(Side side, const Ball& time) {
   heading_ = scene_.is_rough() ? -sign_of(side) : 0, still_for_ = 0;
-  if (!scene_.stop(side).R.is_zero()) return begin(Mode::free, side, 1);
+  if (!main_.is_none()) return begin(Mode::free, side, 1);
   const Ball press = acting().pressing(side, sin_cos(scene_.nu * time + scene_.phase).first) + scene_.friction_static;
   if (press.is_negative()) {
     if (scene_.is_rough()) still_for_ = 1;
@@ -64,37 +64,74 @@ void Motion::rebound(Side side, const Ball& time) {
   resting_ = true, side_ = side, rest_begin_ = time;
 }
 
+Ball Motion::press_of(Side side, const Ball& time) const {
+  return acting().pressing(side, sin_cos(scene_.nu * time + scene_.phase).first);
+}
+
+/// y'' towards a stop in a chatter that stays within a height of it and is no faster than that. It must be more than
+/// friction holds, so that each flight returns, and vary so little that none returns at more than twice the first
+/// speed.
+Motion::Pull Motion::pull_in(Side side, const Ball& window, const Ball& height, const Ball& fastest) const {
+  const Ball during = press_of(side, window);
+  const Ball other = Ball::around_zero(Ball(2) * abs(scene_.h) * fastest + abs(scene_.k) * height);
+  const Pull pull{(during + other).lower(), (during + other).upper()};
+  if (!(pull.least > scene_.friction_static) || !(pull.most < Ball(4) * pull.least))
+    throw Undecided("whether a chatter ends");
+  return pull;
+}
+
+void Motion::require_far_off(Side side, const Ball& height) const {
+  if (const auto& far = scene_.stops[index_of(opposite(side))])
+    if (!(height < abs(far->position - scene_.stop(side).position)))
+      throw Undecided("whether a chatter reaches the other stop");
+}
+
 /// The infinitely many rebounds from one at speed w on: with a- <= y'' <= a+ towards the stop a flight lasts
 /// 2w/a+ ... 2w/a-, rises to w^2/2a- at most, and returns with w (a-/a+)^(1/2) ... w (a+/a-)^(1/2), so the times are
-/// within geometric series. Friction mu slows the way up and the way down, so these have y'' + mu and y'' - mu. Throws
-/// Undecided if that isn't proved.
+/// within geometric series, of the least and the greatest R of these speeds. Friction mu slows the way up and the way
+/// down, so these have y'' + mu and y'' - mu. Throws Undecided if that isn't proved.
 Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) const {
   const Stop& stop = scene_.stop(side);
-  const auto press = [&](const Ball& at) {
-    return acting().pressing(side, sin_cos(scene_.nu * at + scene_.phase).first);
-  };
   const Ball& mu = scene_.friction;
-  const Ball now = press(time), fastest = Ball(2) * w.upper();
+  if (stop.law && stop.law->is_power() && mu.is_zero()) return slowing_rebounds(side, time, w);
+  const Ball now = press_of(side, time), fastest = Ball(2) * w.upper();
   if (!(now > scene_.friction_static)) throw Undecided("whether a chatter ends");
-  const Ball up = now + mu, down = now - mu, returned = stop.R * sqrt(down / up);
+  const Ball R = stop.law ? stop.law->shares_up_to(fastest) : stop.R;
+  const Ball up = now + mu, down = now - mu, returned = R.upper() * sqrt(down / up);
   if (!(returned < Ball(1))) throw Undecided("whether a chatter ends");
   const Ball flight = (w / up + w / sqrt(up * down)).upper();
   const Ball longest = (Ball(2) * flight / (Ball(1) - returned)).upper();
-  const Ball during = press(time + Ball::hull(Ball(0), longest));
   const Ball height = (square(w) / now).upper();  // twice that of the first flight under the present force
-  const Ball other = Ball::around_zero(Ball(2) * abs(scene_.h) * fastest + abs(scene_.k) * height);
-  const Ball least = (during + other).lower(), most = (during + other).upper();
-  if (!(least > scene_.friction_static) || !(most < Ball(4) * least) || !(square(w) / (Ball(2) * least) <= height))
-    throw Undecided("whether a chatter ends");
-  if (const auto& far = scene_.stops[index_of(opposite(side))])
-    if (!(height < abs(far->position - stop.position))) throw Undecided("whether a chatter reaches the other stop");
+  const auto [least, most] = pull_in(side, time + Ball::hull(Ball(0), longest), height, fastest);
+  if (!(square(w) / (Ball(2) * least) <= height)) throw Undecided("whether a chatter ends");
+  require_far_off(side, height);
   // up against a + mu, from a height of w^2/2(a + mu) down with a - mu
-  const Ball slowest = stop.R * sqrt((most - mu) / (least + mu)), quickest = stop.R * sqrt((least - mu) / (most + mu));
+  const Ball slowest = R.upper() * sqrt((most - mu) / (least + mu)),
+             quickest = R.lower() * sqrt((least - mu) / (most + mu));
   if (!(slowest < Ball(1))) throw Undecided("whether a chatter ends");
   const auto flight_in = [&](const Ball& a) { return w / (a + mu) + w / sqrt((a + mu) * (a - mu)); };
   const Ball lasts = flight_in(least) / (Ball(1) - slowest);
   if (!(lasts <= longest)) throw Undecided("whether a chatter ends");
   const Rebounds left{Ball::hull(flight_in(most) / (Ball(1) - quickest), lasts), height};
+  if (scene_.loose) require_off_walls(left);
+  return left;
+}
+
+/// The same under a restitution 1 - C v^p, whose rebounds slow down less and less. If y'' changes at a rate of j at
+/// most, a+ <= a- + j t in a flight of t <= 2w/a-, which so returns with w (1 - w j/a-^2) ... w (1 + w j/a-^2).
+Motion::Rebounds Motion::slowing_rebounds(Side side, const Ball& time, const Ball& w) const {
+  const Law& law = *scene_.stop(side).law;
+  const Ball now = press_of(side, time), fastest = Ball(2) * w.upper();
+  if (!now.is_positive()) throw Undecided("whether a chatter ends");
+  const Ball height = (square(w) / now).upper();
+  const Ball longest = (Ball(4) * law.sum_of_rebounds(w, Ball(0)) / now).upper();
+  const auto [least, most] = pull_in(side, time + Ball::hull(Ball(0), longest), height, fastest);
+  if (!(square(w) / (Ball(2) * least) <= height)) throw Undecided("whether a chatter ends");
+  require_far_off(side, height);
+  const Ball rate = abs(scene_.f * scene_.nu) + abs(scene_.k) * fastest + Ball(2) * scene_.h * most;
+  const Ball speeds = law.sum_of_rebounds(w, rate / square(least));
+  const Rebounds left{Ball::hull(Ball(2) * speeds.lower() / most, Ball(2) * speeds.upper() / least), height};
+  if (!(left.time.upper() <= longest)) throw Undecided("whether a chatter ends");
   if (scene_.loose) require_off_walls(left);
   return left;
 }
@@ -132,7 +169,7 @@ Event Motion::finish_chatter_on_stop(const ChatterAim& aim) {
       if (until < aim.end && until.radius() <= aim.accuracy && left->height <= Ball(aim.height)) {
         const Ball place = scene_.stop(side).position;
         other_places_.push_back(Ball::hull(place, place - Ball(sign_of(side)) * left->height));
-        resting_ = true, factor_ = Dual(0), rest_begin_ = until;
+        resting_ = true, main_ = Rebound{Dual(0)}, rest_begin_ = until;
         return {Kind::chatter, side, begin_time, Ball(0), until};
       }
     }

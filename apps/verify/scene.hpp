@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "dual.hpp"
+#include "law.hpp"
 
 namespace verify {
 
@@ -20,10 +20,14 @@ template <class Number>
 struct BasicStop {
   Number position;
   bool soft = false;
-  Number R;      ///< restitution of a rigid stop
-  Number kappa;  ///< stiffness of a soft stop
-  Number zeta;   ///< its damping ratio
-  Number h_s;    ///< its damping, zeta kappa^(1/2)
+  Number R;                  ///< restitution of a rigid stop
+  Number kappa;              ///< stiffness of a soft stop
+  Number zeta;               ///< its damping ratio
+  Number h_s;                ///< its damping, zeta kappa^(1/2)
+  std::optional<Law> law{};  ///< in place of R, if it depends on the speed
+
+  /// What an impact with a velocity, or with all of a ball's, does to it.
+  [[nodiscard]] Rebound rebound(const Ball& v) const { return law ? law->at(v) : Rebound{Dual(-R)}; }
 
   /// Its force falls to 0 if x + q v is the position.
   [[nodiscard]] Number q() const { return soft ? Number(2) * h_s / kappa : Number(0); }
@@ -38,9 +42,15 @@ struct BasicLooseMass {
   std::array<std::optional<Number>, 2> walls;  ///< z [side]
   Number friction{0}, friction_static{0};      ///< on the housing, over the main mass: in a slide, the most at z' = 0
   bool is_let_go_gently = true;                ///< both are the same, exactly
+  std::array<std::optional<Law>, 2> laws{};    ///< [wall] in place of R, if it depends on the speed
 
   [[nodiscard]] const Number& wall(Side side) const { return *walls[index_of(side)]; }
   [[nodiscard]] const Number& restitution(Side side) const { return R[index_of(side)]; }
+  [[nodiscard]] const std::optional<Law>& law(Side side) const { return laws[index_of(side)]; }
+  /// What an impact on a wall does to z'.
+  [[nodiscard]] Rebound rebound(Side side, const Ball& w) const {
+    return law(side) ? law(side)->at(w) : Rebound{Dual(-restitution(side))};
+  }
   [[nodiscard]] bool is_rough() const { return !friction_static.is_zero(); }
   /// The share of both masses that it is: of a jump of z' the main mass takes so much.
   [[nodiscard]] Number share() const { return mass / (Number(1) + mass); }
@@ -72,13 +82,15 @@ template <class Number>
 [[nodiscard]] std::optional<Number> mirror_centre(const BasicScene<Number>& scene) {
   const auto& [lower, upper] = scene.stops;
   if (const auto& loose = scene.loose)  // its housing has the mirror image that it is about its own middle
-    if (!loose->load.is_zero() || !loose->walls[0] || !loose->walls[1] || !(loose->R[0] - loose->R[1]).is_zero())
+    if (!loose->load.is_zero() || !loose->walls[0] || !loose->walls[1] || !(loose->R[0] - loose->R[1]).is_zero() ||
+        !are_alike(loose->laws[0], loose->laws[1]))
       return std::nullopt;
   if (lower.has_value() != upper.has_value()) return std::nullopt;
   if ((scene.k.is_zero() || !scene.k.is_constant()) && !scene.load.is_zero()) return std::nullopt;
   if (!lower) return scene.k.is_zero() ? Number(0) : scene.load / scene.k;
   const bool alike = lower->soft == upper->soft && (lower->R - upper->R).is_zero() &&
-                     (lower->kappa - upper->kappa).is_zero() && (lower->zeta - upper->zeta).is_zero();
+                     are_alike(lower->law, upper->law) && (lower->kappa - upper->kappa).is_zero() &&
+                     (lower->zeta - upper->zeta).is_zero();
   const Number middle = (lower->position + upper->position) / Number(2);
   const bool centred = scene.k.is_zero() || (middle.is_zero() && scene.load.is_zero()) ||
                        (scene.k.is_constant() && (scene.k * middle - scene.load).is_zero());

@@ -13,9 +13,9 @@ Motion::State Motion::state_of(const Four& coordinates) const {
   y[*surface_] = *surface_ == 2 ? scene_.loose->wall(wall_) : Ball(0);
   if (*surface_ == 0) y[0] = q_.is_zero() ? place_.value : place_.value - q_.value * y[1];
   const Ball v = y[1], w = y[3];
-  y[1] = factor_.value * v;
+  y[1] = main_.after(v);
   if (!scene_.loose) return state;
-  y[1] = y[1] + kick_ * w, y[3] = turn_ * w + (Ball(1) - factor_.value) * v;
+  y[1] = y[1] - scene_.loose->share() * loose_.change(w), y[3] = loose_.after(w) - main_.change(v);
   return state;
 }
 
@@ -41,8 +41,12 @@ Four Motion::rates_at(const Moment& moment) const {
 FourByFour Motion::into_flight(const Moment& start) const {
   FourByFour by = FourByFour::identity();
   if (!surface_) return by;
-  by[1][1] = factor_.value;
-  if (scene_.loose) by[1][3] = kick_, by[3][3] = turn_, by[3][1] = Ball(1) - factor_.value;
+  const Four before = set_.hull();
+  by[1][1] = main_.slope(before[1]);
+  if (scene_.loose) {
+    const Ball turn = loose_.slope(before[3]);
+    by[1][3] = scene_.loose->share() * (Ball(1) - turn), by[3][3] = turn, by[3][1] = Ball(1) - by[1][1];
+  }
   if (*surface_ == 0 && !q_.is_zero()) by[0][1] = -q_.value;
   const Four rates = rates_at(start);
   for (std::size_t i = 0; i < 4; ++i) by[i][*surface_] = -rates[i];
@@ -69,7 +73,7 @@ Four Motion::by_parameter_after(const Ball& duration, const Ball& slope) const {
   const Dual x = surface_ ? place_ - q_ * v : Dual(hull[0]);
   const BasicFlow<Dual>& flow = (*moving_flows_)[number_of_flow()];
   const auto there =
-      BasicFlow<Dual>::Flight(flow, time, x, surface_ ? factor_ * v : v).at({duration, slope - time.slope});
+      BasicFlow<Dual>::Flight(flow, time, x, surface_ ? main_.after(v) : v).at({duration, slope - time.slope});
   by[0] = there.x.slope, by[1] = there.v.slope;
   return by;
 }
@@ -133,7 +137,7 @@ void Motion::move_to_surface(const MachineFlight& all, const Margin& margin, con
   }
   image[surface] = centre.time + middle_instant;
   set_.move(image, derivative, by_parameter);
-  surface_ = surface, place_ = place, q_ = q, factor_ = Dual(1), kick_ = Ball(0), turn_ = Ball(1);
+  surface_ = surface, place_ = place, q_ = q, main_ = loose_ = Rebound();
   vanishing_ = still_for_ = loose_vanishing_ = loose_still_for_ = 0;
   require_bounds();
 }
@@ -155,7 +159,8 @@ Event Motion::pass(std::size_t index, const Margin& margin) {
       event.kind = Kind::touch;
       begin(Mode::contact, side, stop.h_s.is_zero() ? 1 : 0);
     } else {
-      event.kind = Kind::impact, factor_ = family_ != nullptr ? -family_->scene.stop(side).R : Dual(-stop.R);
+      event.kind = Kind::impact;
+      main_ = family_ != nullptr ? Rebound{-family_->scene.stop(side).R} : stop.rebound(event.v);
       if (scene_.loose) shake(event);
       rebound(side, event.time);
     }

@@ -15,6 +15,24 @@ const char* name_of(Side side) { return side == Side::upper ? "upper" : "lower";
 Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(value > 0 ? "inf" : "-inf"); }
 Json json_of(const Claimed& claimed) { return Json::array({claimed.value, claimed.error}); }
 
+/// A number, or what tells how it depends on the speed: as the program's law, with the speeds of a table and their
+/// unit.
+void add_restitution(Json& json, const Restitution<double>& law) {
+  if (law.is_constant()) {
+    json["R"] = law.R;
+    return;
+  }
+  Json& told = json["restitution"] = Json::object();
+  if (law.table) {
+    for (const SpeedTable::Knot& knot : law.table->knots) told["table"].push_back(Json::array({knot.speed, knot.R}));
+    if (law.unit != 1) told["unit"] = law.unit;
+  } else {
+    told["R"] = law.R;
+    if (law.exponent > 0) told["exponent"] = law.exponent, told["reference_speed"] = law.reference;
+  }
+  if (law.below > 0) told["below"] = law.below;
+}
+
 Json json_of(const Stops& stops, Side side) {
   const bool upper = side == Side::upper;
   Json stop{{"position", upper ? stops.upper : stops.lower}};
@@ -22,7 +40,7 @@ Json json_of(const Stops& stops, Side side) {
     stop["stiffness"] = upper ? stops.stiffness_upper : stops.stiffness_lower;
     stop["damping"] = upper ? stops.damping_upper : stops.damping_lower;
   } else {
-    stop["R"] = (upper ? stops.restitution_upper : stops.restitution_lower).R;
+    add_restitution(stop, law_of(stops, side));
   }
   return stop;
 }
@@ -37,14 +55,14 @@ void add_friction(Json& json, double kinetic, double static_level) {
 Json json_of(const LooseMass& loose) {
   const bool are_alike = loose.restitution_lower == loose.restitution_upper;
   Json json{{"mass", loose.ratio}, {"load", loose.load}};
-  if (are_alike) json["R"] = loose.restitution_lower.R;
-  const auto add_wall = [&](const char* name, double position, double R) {
+  if (are_alike) add_restitution(json, loose.restitution_lower);
+  const auto add_wall = [&](const char* name, double position, const Restitution<double>& law) {
     if (!std::isfinite(position)) return;
     json[name] = {{"position", position}};
-    if (!are_alike) json[name]["R"] = R;
+    if (!are_alike) add_restitution(json[name], law);
   };
   add_friction(json, loose.friction, loose.friction_static);
-  add_wall("lower", loose.lower, loose.restitution_lower.R), add_wall("upper", loose.upper, loose.restitution_upper.R);
+  add_wall("lower", loose.lower, loose.restitution_lower), add_wall("upper", loose.upper, loose.restitution_upper);
   return json;
 }
 

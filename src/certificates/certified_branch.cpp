@@ -147,6 +147,10 @@ CertifiedPoint certified(const BranchPoint& point, const StartProblem& start) {
 
 CertifiedPoint certified(const SpecialPoint& special, Parameter along, const StartProblem& start) {
   CertifiedPoint found{.status = steady::Status::periodic, .without = Without::no_such_claim};
+  if (!has_constant_restitution(branches::with_scene(start, special.at.scene))) {
+    found.without = Without::law_of_speed;
+    return found;
+  }
   const auto kind = claimed_kind(special);
   const auto graze = grazing(special);
   const FollowedScene& scene = special.at.scene;

@@ -161,6 +161,28 @@ void certify_periodic(const Problem& problem, const PointResult& result, Certifi
   if (point.without == Without::rounding) certify_from_release(section, result, point);
 }
 
+/// Whether the format has a claim of a chatter under a law of restitution: one that goes on for ever, and on a wall one
+/// in which R is the same at all speeds.
+bool is_claimed(const Restitution<double>& law, bool of_wall) {
+  if (law.is_constant()) return true;
+  const bool is_same = !law.is_power() && law.at_rest().slope == 0;
+  return of_wall ? is_same && law.share_at_rest() > 0 : !is_same || law.share_at_rest() > 0;
+}
+
+CertifiedPoint with_claimed_chatters(CertifiedPoint point) {
+  if (!point.certificate) return point;
+  const Scene& scene = point.certificate->scene;
+  const auto has_no_claim = [&](const ClaimedEvent& event) {
+    const bool is_lower = event.side == Side::lower;
+    const auto& of_wall = is_lower ? scene.loose.restitution_lower : scene.loose.restitution_upper;
+    return event.kind == Kind::chatter &&
+           !is_claimed(event.of_wall ? of_wall : law_of(scene.stops, event.side), event.of_wall);
+  };
+  if (std::ranges::any_of(point.certificate->events, has_no_claim))
+    point.without = Without::law_of_speed, point.certificate.reset();
+  return point;
+}
+
 /// The frame of the extrema that a certificate states.
 Frame stated_frame(const Problem& problem) { return has_loose_mass(problem.loose) ? Frame::absolute : Frame::relative; }
 
@@ -197,7 +219,7 @@ CertifiedPoint certified_period(const Problem& problem, const PointResult& resul
     point.without = Without::force;
   else
     certify_periodic(problem, result, point);
-  return point;
+  return with_claimed_chatters(std::move(point));
 }
 
 CertifiedPoint certified(const Problem& problem, const KnownResult& known, point::ThreadScratch& scratch) {
@@ -207,10 +229,6 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
   if (known.status != Status::periodic && known.status != Status::transient) return point;
   if (has_soft_wall(problem.loose)) {
     point.without = Without::soft_wall;
-    return point;
-  }
-  if (!has_constant_restitution(problem)) {
-    point.without = Without::law_of_speed;
     return point;
   }
   const bool is_steady = known.status == Status::periodic;
@@ -231,7 +249,7 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
   } else {
     certify_transient(plain, result, point);
   }
-  return point;
+  return with_claimed_chatters(std::move(point));
 }
 
 }  // namespace clatter::certificates

@@ -52,10 +52,11 @@ ClaimedEvent ErrorBounds::claimed_stay(const RecordedEvent<2>& event, const Clai
   const double late = after_chatter                             ? before->then.error
                       : follows && before->kind == Kind::impact ? before->time.error
                                                                 : time_error(event.time);
-  const double place = place_of(event), R = restitution_at<double>(stops_, event.side).share_at_rest();
+  const double place = place_of(event);
   const double push = std::abs(acceleration_at(event.time, place, event.velocity()));
-  const double end = event.kind == Kind::rest ? release_error(event, place, 0.0)
-                                              : chatter_error(event, before, R, push, friction_.kinetic);
+  const double end = event.kind == Kind::rest
+                         ? release_error(event, place, 0.0)
+                         : chatter_error(event, before, law_of(stops_, event.side), push, friction_.kinetic);
   return {event.kind, event.side, {begin_ + event.time, late}, {begin_ + event.end(), end}};
 }
 

@@ -117,11 +117,18 @@ class Bounds {
     return claim;
   }
   /// The flights of a chatter under a force last S v together, 2 v/(a (1 - R)) without friction (eqs. 24 and 63): its
-  /// end is off by the error of its first impact and by that of its speed.
-  [[nodiscard]] double chatter_error(const RecordedEvent<n>& event, const ClaimedEvent* before, double R, double push,
-                                     double mu) const {
+  /// end is off by the error of its first impact and by that of its speed. If R depends on the speed, they last no
+  /// longer than in proportion to that.
+  [[nodiscard]] double chatter_error(const RecordedEvent<n>& event, const ClaimedEvent* before,
+                                     const Restitution<double>& law, double push, double mu) const {
     const double error = of_chatter * event.length + time_error(event.end());
     if (before == nullptr) return error;
+    if (!law.is_constant()) {
+      const double v = before->then.value, rebound = std::abs(law.after(v));
+      const double grown = std::abs(law.derivative(v)) * before->then.error;
+      return error + before->time.error + (rebound > 0 ? event.length * (grown / rebound) : 0.0);
+    }
+    const double R = law.R;
     const double up = push + mu, down = push - mu;
     const double flights = (1 / up + 1 / std::sqrt(up * down)) / (1 - R * std::sqrt(down / up));
     return error + before->time.error + R * flights * before->then.error;

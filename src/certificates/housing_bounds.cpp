@@ -112,11 +112,10 @@ ClaimedEvent HousingBounds::claimed_stay(const RecordedEvent<4>& event, const Cl
     claim.then.error = event.of_wall ? release_error(event) : Bounds::release_error(event, place_of(event), 0.0);
     return claim;
   }
-  const auto law =
-      event.of_wall ? motion::WallRule<double>(loose_).law(event.side) : restitution_at<double>(stops_, event.side);
+  const auto law = event.of_wall ? motion::WallRule<double>(loose_).law(event.side) : law_of(stops_, event.side);
   const double push =
       event.of_wall ? std::abs(loose_.load - acceleration(event)) : std::abs(push_at(event.time, place_of(event)));
-  claim.then.error = chatter_error(event, before, law.share_at_rest(), push, event.of_wall ? 0.0 : friction_.kinetic);
+  claim.then.error = chatter_error(event, before, law, push, event.of_wall ? 0.0 : friction_.kinetic);
   return claim;
 }
 

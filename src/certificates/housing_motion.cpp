@@ -87,7 +87,7 @@ std::vector<RecordedEvent<4>> with_chatters(std::vector<RecordedEvent<4>> events
       fastest = std::max(fastest, list[--first].speed());
     std::size_t last = first;
     while (last < list.size() && !(std::abs(list[last].after) < slow * fastest)) ++last;
-    const bool chatters = last < list.size() && list[last].after != 0;
+    const bool chatters = last < list.size() && list.back().after != 0;  // else a slow impact doesn't rebound
     if (chatters) {
       list.resize(last + 1);
       RecordedEvent<4> chatter = list[last];

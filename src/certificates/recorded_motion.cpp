@@ -44,6 +44,30 @@ std::vector<RecordedEvent<2>> joined_events(const std::vector<motion::Event>& re
 
 }  // namespace
 
+std::vector<RecordedEvent<2>> with_short_chatters(const std::vector<RecordedEvent<2>>& events, const Stops& stops) {
+  constexpr double slow = 1e-3;
+  std::vector<RecordedEvent<2>> list;
+  for (RecordedEvent<2> event : events) {
+    const auto leads_to_it = [&](const RecordedEvent<2>& one) {
+      return one.kind == Kind::reversal || (one.kind == Kind::impact && one.side == event.side);
+    };
+    std::size_t first = list.size();
+    double fastest = 0.0;
+    if (event.kind == Kind::chatter && !law_of(stops, event.side).is_constant())
+      while (first > 0 && leads_to_it(list[first - 1])) fastest = std::max(fastest, list[--first].speed());
+    const auto is_slow = [&](const RecordedEvent<2>& one) {
+      return one.kind == Kind::impact && one.speed() < slow * fastest;
+    };
+    const auto last = std::find_if(list.begin() + static_cast<std::ptrdiff_t>(first), list.end(), is_slow);
+    if (last != list.end()) {
+      list.erase(last + 1, list.end());
+      event.length = event.end() - list.back().time, event.time = list.back().time;
+    }
+    list.push_back(event);
+  }
+  return list;
+}
+
 std::optional<RecordedMotion<2>> recorded(const point::Problem& problem, double turns, Side released) {
   const auto motion = point::ExactMotion::of(problem);
   point::MotionRecorder recorder(motion->stops());
@@ -52,7 +76,8 @@ std::optional<RecordedMotion<2>> recorded(const point::Problem& problem, double 
   if (released != Side::none) state.released = true, state.from_stop = released;
   if (motion->run_for(state, turns, recorder) != stepping::Outcome::completed) return std::nullopt;
   Growth<2> growth;
-  std::vector<RecordedEvent<2>> events = joined_events(recorder, problem.stops, growth);
+  std::vector<RecordedEvent<2>> events =
+      with_short_chatters(joined_events(recorder, problem.stops, growth), problem.stops);
   growth.pass(recorder.watch.derivative(), 0.0);
   return RecordedMotion<2>{
       std::move(events), {state.x, state.v}, growth.derivative(), growth.rounding(), turns * motion->period()};
@@ -69,8 +94,9 @@ std::optional<RecordedMotion<2>> recorded_from_release(const point::Problem& pro
   if (!motion) return std::nullopt;
   release = motion->release;
   Growth<2> growth;
-  RecordedMotion<2> recorded{.events = joined_events(motion->events, {}, problem.stops, growth),
-                             .duration = turns * period_of(problem.oscillator)};
+  RecordedMotion<2> recorded{
+      .events = with_short_chatters(joined_events(motion->events, {}, problem.stops, growth), problem.stops),
+      .duration = turns * period_of(problem.oscillator)};
   for (RecordedEvent<2>& event : recorded.events) event.derivative = {};  // the start is known, and no rounding grows
   recorded.end.x = side == Side::upper ? problem.stops.upper : problem.stops.lower;
   return recorded;

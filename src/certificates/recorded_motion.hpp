@@ -55,6 +55,12 @@ struct RecordedMotion {
 [[nodiscard]] std::vector<RecordedEvent<2>> joined_events(const point::MotionRecorder& recorder, const Stops& stops,
                                                           Growth<2>& growth);
 
+/// The events of a record without the last impacts of each chatter on a stop whose restitution depends on the speed:
+/// before a run sums them there may be thousands. After one a thousand times slower than the fastest the rest of them
+/// is one event.
+[[nodiscard]] std::vector<RecordedEvent<2>> with_short_chatters(const std::vector<RecordedEvent<2>>& events,
+                                                                const Stops& stops);
+
 /// Records the motion of a problem for a time in forcing periods; if a stop is named, this releases the mass at the
 /// start. Nothing if the motion cannot be completed.
 [[nodiscard]] std::optional<RecordedMotion<2>> recorded(const point::Problem& problem, double turns,

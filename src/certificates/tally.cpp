@@ -22,7 +22,7 @@ std::string reason_of(const CertifiedPoint& point) {
     case Without::soft_wall:
       return "with a soft wall of the loose mass";
     case Without::law_of_speed:
-      return "with a restitution that depends on the speed";
+      return "with a restitution that depends on the speed in a chatter or a special point";
     case Without::loose_friction:
       return "with friction in a chatter of the loose mass";
     case Without::both_held:

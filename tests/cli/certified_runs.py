@@ -47,8 +47,9 @@ def certificates_in(file):
     return [line for line in lines if "claim" in line]
 
 
-def certified_scenes(folder, scenes, time):
-    """Runs scenes, or their keys, in a sweep for each kind, and writes the certificates of all into one file."""
+def certified_scenes(folder, scenes, time, fixed=""):
+    """Runs scenes, or their keys beside fixed ones, in a sweep for each kind, and writes the certificates of all into
+    one file."""
     folder, kinds = Path(folder), {}
     for scene in scenes:
         values = scene if isinstance(scene, dict) else keys_of(scene)
@@ -59,7 +60,7 @@ def certified_scenes(folder, scenes, time):
             lists = "".join(f"{key} = {numbers([values[key] for values in alike])}\n" for key in keys)
             config, output = folder / f"{count}.toml", folder / f"{count}.h5"
             linked = f"[sweep]\n{lists}linked = \"{', '.join(keys)}\"\n"
-            config.write_text(f"[scene]\n{linked}[time]\n{time}max_impacts = 20000\n[observe]\nextrema = true\n")
+            config.write_text(f"[scene]\n{fixed}{linked}[time]\n{time}max_impacts = 20000\n[observe]\nextrema = true\n")
             subprocess.run([CLATTER, "run", config, "-o", output, "-q"], check=False)
             certified(output, folder / "kind.jsonl")
             file.write((folder / "kind.jsonl").read_text(encoding="utf-8"))

@@ -28,7 +28,7 @@ def holder_of_R(scene, event):
     side, housing = event.get(place_name(event)), scene.get("loose", {})
     if "wall" not in event and side in scene:
         return scene[side]
-    return housing if "R" in housing else housing.get(side, {})
+    return housing if {"R", "restitution"} & housing.keys() else housing.get(side, {})
 
 
 def restitution(certificate, event):

@@ -8,6 +8,7 @@ import math
 
 from claimed_events import holder_of_R, place_name
 from forger_judge import LAST, OTHER, Unreliable, number, period_of
+from laws_of_speed import ends_in_chatter, law_of
 
 
 def widened(certificate, error):
@@ -261,7 +262,7 @@ def claimed_from(events, scene, draw, error):
     claims = []
     for event in events:
         rigid = holder_of_R(scene, event)
-        if event["event"] in ("rest", "press") and claims and number(rigid["R"]) > 0:
+        if event["event"] in ("rest", "press") and claims and ends_in_chatter(law_of(rigid)):
             series = len(claims)
             while series > 0 and claims[series - 1]["event"] in ("impact", "reversal"):
                 if claims[series - 1].get("stop", event["stop"]) != event["stop"]:

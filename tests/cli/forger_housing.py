@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from forger_motion import SIGN, SLOW, Flow, Motion, Unreliable, first_fall, number
+from laws_of_speed import law_of, share
 
 
 class HousedMotion(Motion):
@@ -14,7 +15,8 @@ class HousedMotion(Motion):
         loose = scene["loose"]
         self.mass, self.load = number(loose["mass"]), number(loose["load"])
         self.walls = {side: number(loose[side]["position"]) for side in SIGN if side in loose}
-        self.restitution = {side: number(loose[side].get("R", loose.get("R"))) for side in self.walls}
+        of_both = {name: loose[name] for name in ("R", "restitution") if name in loose}
+        self.laws = {side: law_of({**of_both, **loose[side]}) for side in self.walls}
         self.share, self.pressed, self.since = self.mass / (1 + self.mass), start.get("pressed"), number(start["time"])
         self.was_carried, self.struck_on = False, None
         self.rub = number(loose.get("friction", 0))
@@ -169,8 +171,8 @@ class HousedMotion(Motion):
     def cross(self, name, side):
         before, pressed, gripped = self.v, self.pressed, self.gripped
         self.pressed, self.gripped, self.was_carried = None, False, self.carries()
-        if self.hold and name == "hit" and "R" in self.stops[side]:
-            self.slide = int(np.sign(self.w + (1 + self.stops[side]["R"]) * before))
+        if self.hold and name == "hit" and "stiffness" not in self.stops[side]:
+            self.slide = int(np.sign(self.w + (1 + share(law_of(self.stops[side]), abs(before))) * before))
         super().cross(name, side)
         self.w += before - self.v if name != "still" else 0
         if name == "leave":
@@ -195,7 +197,7 @@ class HousedMotion(Motion):
 
     def strike(self, side):
         self.tell("impact", **{self.name: side}, time=self.t, w=self.w)
-        self.z, R = self.walls[side], self.restitution[side]
+        self.z, R = self.walls[side], share(self.laws[side], abs(self.w))
         before, rests, self.slide = self.v, False, 0
         if abs(R * self.w) < SLOW:
             self.v += self.share * self.w

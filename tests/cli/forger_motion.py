@@ -9,6 +9,8 @@ import math
 
 import numpy as np
 
+from laws_of_speed import law_of, share
+
 SLOW = 1e-7  # a rebound that is slower ends a chatter
 GRID = np.concatenate([np.geomspace(1e-10, 1, 60)[:-1], np.arange(1, 400)])  # in steps; flights may be short
 
@@ -91,6 +93,11 @@ def number(value):
     return float(value)
 
 
+def numbers(values):
+    """Those of an object; a law of restitution stays as it is."""
+    return {name: value if isinstance(value, dict) else number(value) for name, value in values.items()}
+
+
 class Motion:
     """Events and pieces of a motion of a mass between stops, up to an end."""
 
@@ -98,7 +105,7 @@ class Motion:
         self.scene = {name: number(value) for name, value in scene.items() if not isinstance(value, dict)}
         self.mu = self.scene.get("friction", 0.0)
         self.mu_static = self.scene.get("friction_static", self.mu)
-        self.stops = {side: {n: number(x) for n, x in scene[side].items()} for side in SIGN if side in scene}
+        self.stops = {side: numbers(scene[side]) for side in SIGN if side in scene}
         self.end, self.events, self.pieces = end, [], []
         self.mode, self.side, self.heading = "free", None, 0
         self.begin(start)
@@ -143,9 +150,9 @@ class Motion:
             if depth > 0 and "stiffness" in stop:
                 q = 2 * stop["damping"] / math.sqrt(stop["stiffness"])
                 self.mode, self.side = "contact" if depth + q * SIGN[side] * self.v > 0 else "beyond", side
-            elif abs(depth) < 1e-9 and "R" in stop and self.v == 0 and self.pressing(side, self.t) > 0:
+            elif abs(depth) < 1e-9 and "stiffness" not in stop and self.v == 0 and self.pressing(side, self.t) > 0:
                 self.rest(side)
-            elif abs(depth) < 1e-9 and "R" in stop and SIGN[side] * self.v > 1e-3:
+            elif abs(depth) < 1e-9 and "stiffness" not in stop and SIGN[side] * self.v > 1e-3:
                 self.cross("hit", side)
                 return
             elif depth > -1e-9:
@@ -215,11 +222,12 @@ class Motion:
             self.mode, self.side = "contact", side
         else:
             self.tell("impact", **speed)
-            self.x, self.v = stop["position"], -stop["R"] * self.v
+            R = share(law_of(stop), abs(self.v))
+            self.x, self.v = stop["position"], -R * self.v
             self.heading = -SIGN[side] if self.mu_static else 0
             if abs(self.v) < SLOW and self.pressing(side, self.t) > self.mu_static:
                 self.rest(side)
-            elif abs(self.v) < SLOW and stop["R"] > 0:
+            elif abs(self.v) < SLOW and R > 0:
                 raise Unreliable("whether it rests")
 
     def stay_on_stop(self):

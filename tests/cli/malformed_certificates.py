@@ -49,7 +49,61 @@ PERIOD = {"claim": "periodic", "periods": 1}
 PRESS = {"event": "press", "stop": "lower", "time": [0, 1], "until": [1, 1]}
 
 
-MALFORMED = [  # a line, and the place and how to fix it that are told
+def with_law(**law):
+    return in_scene(lower={"position": -5, "restitution": law})
+
+
+KNOTS = "scene.lower.restitution.table"
+MALFORMED_LAWS = [
+    (in_scene(lower={"position": -5, "restitution": 0.7}), "scene.lower.restitution: is no object; write {...}"),
+    (
+        in_scene(lower={"position": -5, "restitution": {"R": 0.7, "below": 1}, "R": 0.7}),
+        "scene.lower: has R and restitution; give one",
+    ),
+    (
+        in_scene(lower={"position": -5, "restitution": {"R": 0.7, "below": 1}, "stiffness": 3, "damping": 0}),
+        "scene.lower: has restitution and stiffness; give one",
+    ),
+    (with_law(), "scene.lower.restitution: has neither R nor table; give one"),
+    (with_law(R=0.7), "scene.lower.restitution: doesn't depend on the speed; give R alone"),
+    (with_law(R=0.7, below=0), "scene.lower.restitution: doesn't depend on the speed; give R alone"),
+    (with_law(R=1.1, below=1), "scene.lower.restitution.R: is 1.1; it must be at least 0 and at most 1"),
+    (with_law(R=0.7, below=-1), "scene.lower.restitution.below: is -1; it must be at least 0"),
+    (with_law(R=0.7, exponent=0.2), "scene.lower.restitution.reference_speed: is missing; add it"),
+    (with_law(R=0.7, exponent=0, reference_speed=1), "scene.lower.restitution.exponent: is 0; it must be above 0"),
+    (with_law(R=0.7, exponent=1, reference_speed=1), "scene.lower.restitution.exponent: is 1; it must be below 1"),
+    (
+        with_law(R=0.7, exponent=0.2, reference_speed=0),
+        "scene.lower.restitution.reference_speed: is 0; it must be above 0",
+    ),
+    (with_law(R=0.7, below=1, reference_speed=1), "scene.lower.restitution: the member 'reference_speed' has no mean"),
+    (with_law(R=0.7, below=1, unit=2), "scene.lower.restitution: the member 'unit' has no meaning here; leave"),
+    (with_law(R=0.7, table=[[1, 0.5]]), "scene.lower.restitution: has R and table; give one"),
+    (
+        with_law(table=[[1, 0.5]], exponent=0.2, reference_speed=1),
+        "scene.lower.restitution.exponent: is given beside a table; leave one",
+    ),
+    (with_law(table=[]), rf"{KNOTS}: is empty; write \[\[speed, R\], ...\]"),
+    (with_law(table=[[1, 0.5, 2]]), rf"{KNOTS}\[0\]: has 3 items; write \[speed, R\]"),
+    (with_law(table=[[-1, 0.5]]), rf"{KNOTS}\[0\]\[0\]: is -1; it must be at least 0"),
+    (with_law(table=[[1, 1.5]]), rf"{KNOTS}\[0\]\[1\]: is 1.5; it must be at least 0 and at most 1"),
+    (with_law(table=[[1, 0.5], ["1.0", 0.4]]), rf"{KNOTS}\[1\]\[0\]: is no faster than the knot before; give each"),
+    (with_law(table=[[1, 0.5]], unit=0), "scene.lower.restitution.unit: is 0; it must be above 0"),
+    (
+        {**SPECIAL, "scene": with_law(R=0.7, below=1)["scene"]},
+        "claim: is special with a restitution that depends on the speed; claim transient or periodic",
+    ),
+    (
+        with_loose_mass({**LOOSE, "restitution": {"R": 0.6, "below": 1}}, **HOUSED),
+        "scene.loose: has R and restitution; give one",
+    ),
+    (
+        with_loose_mass({**LOOSE, "upper": {"position": 0.4, "restitution": {"R": 0.6, "below": 1}}}, **HOUSED),
+        "scene.loose.upper.restitution: is given beside that of both walls; leave one",
+    ),
+]
+
+MALFORMED = MALFORMED_LAWS + [  # a line, and the place and how to fix it that are told
     ("{", "is no JSON .*; write one object a line"),
     ('{"a":' * 100000, "nests more than"),
     (without("format"), "format: is missing; add it"),
@@ -61,7 +115,7 @@ MALFORMED = [  # a line, and the place and how to fix it that are told
     (in_scene(k="1e"), "scene.k: .* is no decimal number; write e.g."),
     (in_scene(k="nan"), "scene.k: .* is no decimal number; write e.g."),
     (in_scene(k=None), "scene.k: is no number; write a number"),
-    (in_scene(lower={"position": 1}), "scene.lower: has neither R nor stiffness; give one"),
+    (in_scene(lower={"position": 1}), "scene.lower: has neither R, restitution nor stiffness; give one"),
     (in_scene(lower={"position": 1, "R": 2}), "scene.lower.R: is 2; it must be at least 0 and at most 1"),
     (in_scene(upper={"position": -6, "R": 1}), "scene: has its lower stop above the upper one; exchange"),
     (in_scene(friction=0.2, friction_static=0.1), "scene.friction_static: is below friction; give the same or more"),
