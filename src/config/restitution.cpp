@@ -142,6 +142,29 @@ void check_table(const Settings& settings, const KeysOfLaw& law, Side side) {
 
 }  // namespace
 
+std::optional<NoEffect> restitution_without_effect(const Settings& settings, const Key& key) {
+  const auto parameter = Parameter::of(key.kind == Kind::text ? key.other : key.name);
+  if (!describes_scene(key.section) || !parameter) return std::nullopt;
+  if (parameter->role() != Role::restitution && parameter->role() != Role::law_of_speed) return std::nullopt;
+  for (const KeysOfLaw& law : laws) {
+    if (!key.name.starts_with(law.reference.key())) continue;
+    for (const Side side : {Side::lower, Side::upper})
+      if (place_of_nonzero(at(settings, law.exponent, side)) != nullptr) return std::nullopt;
+    return NoEffect{"without an exponent", "give that, too"};
+  }
+  const auto is_absent = [&](Side side) {
+    const Setting* const place =
+        settings.given(side == Side::lower ? Parameter("stop_lower") : Parameter("stop_upper"));
+    return place == nullptr || std::ranges::all_of(place->numbers(), [](double x) { return std::isinf(x); });
+  };
+  if (parameter->is_loose() || settings.given_symmetric_stops()) return std::nullopt;
+  const bool no_lower = is_absent(Side::lower), no_upper = is_absent(Side::upper);
+  if (parameter->side() == Side::none && no_lower && no_upper) return NoEffect{"without stops", "give stops"};
+  if (parameter->side() == Side::lower && no_lower) return NoEffect{"without a lower stop", "give stop_lower"};
+  if (parameter->side() == Side::upper && no_upper) return NoEffect{"without an upper stop", "give stop_upper"};
+  return std::nullopt;
+}
+
 void let_speed_table_or_restitution_win(Settings& settings) {
   for (const KeysOfLaw& law : laws)
     for (const Side side : {Side::lower, Side::upper}) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "config/consistency.hpp"
@@ -16,6 +17,13 @@ void set_speed_tables(const Settings& settings, GivenScene& scene);
 
 /// Whether a table takes the place of a key of restitution, for the stop of the key or for one of both.
 [[nodiscard]] bool has_speed_table(const Settings& settings, std::string_view restitution);
+
+/// Under which condition a key has no effect, and how it would have one.
+struct NoEffect {
+  std::string_view condition, remedy;
+};
+/// Why a key of restitution has none; nothing: it has one, or is no such key.
+[[nodiscard]] std::optional<NoEffect> restitution_without_effect(const Settings& settings, const Key& key);
 
 /// Lets a table of the command line replace the restitution of the file, and the other way round; of one that stands
 /// for both stops the other one's stays.

@@ -8,6 +8,7 @@
 
 #include "config/config.hpp"
 #include "config/consistency.hpp"
+#include "config/restitution.hpp"
 
 namespace clatter::config {
 namespace {
@@ -182,14 +183,6 @@ bool no_upper_wall(const Settings& settings) {
 bool no_soft_lower_wall(const Settings& settings) { return !is_soft_wall_somewhere(settings, Side::lower); }
 bool no_soft_upper_wall(const Settings& settings) { return !is_soft_wall_somewhere(settings, Side::upper); }
 bool no_soft_wall(const Settings& settings) { return no_soft_lower_wall(settings) && no_soft_upper_wall(settings); }
-bool no_power(const Settings& settings) {
-  return everywhere(settings, "R_exponent", zero) && everywhere(settings, "R_exponent_lower", zero) &&
-         everywhere(settings, "R_exponent_upper", zero);
-}
-bool no_loose_power(const Settings& settings) {
-  return everywhere(settings, "loose_R_exponent", zero) && everywhere(settings, "loose_R_exponent_lower", zero) &&
-         everywhere(settings, "loose_R_exponent_upper", zero);
-}
 bool no_stops(const Settings& settings) { return no_lower(settings) && no_upper(settings); }
 bool no_impacts(const Settings& settings) { return no_stops(settings) && !has_loose_mass(settings); }
 
@@ -247,31 +240,11 @@ constexpr std::string_view or_stops = "give stops";
 constexpr std::string_view no_harmonic = "without harmonics", or_harmonics = "write e.g. harmonics = 3";
 constexpr std::string_view only_moreau = "without method = \"moreau\"", or_moreau = "write that in [integrator]";
 
-constexpr std::string_view no_exponent = "without an exponent", or_exponent = "give that, too";
-
 constexpr Rule rules[] = {
     {"scene", "nu", unforced, no_force, or_force},
     {"machine", "frequency", unforced, no_force, "give a force, stop_amplitude or base_amplitude"},
     {"scene", "phase", unforced, no_force, or_force},
     {"scene", "stop_phase", unshaken, "without stop_amplitude or base_amplitude", "give one of them"},
-    {"scene", "R", no_stops, "without stops", or_stops},
-    {"scene", "R_lower", no_lower, "without a lower stop", "give stop_lower"},
-    {"scene", "R_upper", no_upper, "without an upper stop", "give stop_upper"},
-    {"scene", "R_exponent", no_stops, "without stops", or_stops},
-    {"scene", "R_exponent_lower", no_lower, "without a lower stop", "give stop_lower"},
-    {"scene", "R_exponent_upper", no_upper, "without an upper stop", "give stop_upper"},
-    {"scene", "R_below", no_stops, "without stops", or_stops},
-    {"scene", "R_below_lower", no_lower, "without a lower stop", "give stop_lower"},
-    {"scene", "R_below_upper", no_upper, "without an upper stop", "give stop_upper"},
-    {"scene", "R_of_speed", no_stops, "without stops", or_stops},
-    {"scene", "R_of_speed_lower", no_lower, "without a lower stop", "give stop_lower"},
-    {"scene", "R_of_speed_upper", no_upper, "without an upper stop", "give stop_upper"},
-    {"scene", "R_reference_speed", no_power, no_exponent, or_exponent},
-    {"scene", "R_reference_speed_lower", no_power, no_exponent, or_exponent},
-    {"scene", "R_reference_speed_upper", no_power, no_exponent, or_exponent},
-    {"scene", "loose_R_reference_speed", no_loose_power, no_exponent, or_exponent},
-    {"scene", "loose_R_reference_speed_lower", no_loose_power, no_exponent, or_exponent},
-    {"scene", "loose_R_reference_speed_upper", no_loose_power, no_exponent, or_exponent},
     {"scene", "stop_stiffness", no_stops, "without stops", or_stops},
     {"scene", "stop_stiffness_lower", no_lower, "without a lower stop", "give stop_lower"},
     {"scene", "stop_stiffness_upper", no_upper, "without an upper stop", "give stop_upper"},
@@ -330,14 +303,16 @@ bool is_default(const Setting& setting) {
 /// Adds a warning if a key has no effect.
 void look_at(const Settings& settings, const Setting& setting, std::vector<Warning>& warnings) {
   const Key& key = *setting.key;
+  const auto warn = [&](std::string_view condition, std::string_view remedy) {
+    warnings.push_back({to_string(setting.key_location), std::string(key.section),
+                        '\'' + std::string(key.name) + "' has no effect " + std::string(condition) +
+                            "; leave it out, or " + std::string(remedy)});
+  };
+  if (const auto none = restitution_without_effect(settings, key)) return warn(none->condition, none->remedy);
   for (const Rule& rule : rules) {
     const bool is_in_section =
         rule.section == key.section || (describes_scene(rule.section) && describes_scene(key.section));
-    if (!is_in_section || rule.name != key.name || !rule.holds(settings)) continue;
-    warnings.push_back({to_string(setting.key_location), std::string(key.section),
-                        '\'' + std::string(key.name) + "' has no effect " + std::string(rule.condition) +
-                            "; leave it out, or " + std::string(rule.remedy)});
-    return;
+    if (is_in_section && rule.name == key.name && rule.holds(settings)) return warn(rule.condition, rule.remedy);
   }
 }
 

@@ -105,7 +105,7 @@ class ClosedForm {
   /// The states at forcing phase 0 of both symmetric motions, as far as they are real and leave the stops inwards.
   [[nodiscard]] std::vector<PhasePoint> symmetric() const {
     const double h = p_.oscillator.damping, nu = p_.oscillator.frequency, s = p_.stops.upper;
-    const double R = p_.stops.restitution_upper, e = std::exp(-h * half_);
+    const double R = p_.stops.restitution_upper.R, e = std::exp(-h * half_);
     const double c = std::cos(omega_ * half_), sine = std::sin(omega_ * half_);
     const double b = -(1 + e * c) / (e * sine), d1 = -h + omega_ * b;
     const double d2 = e * (d1 * c - (h * b + omega_) * sine);

@@ -73,11 +73,11 @@ constexpr Oscillator free_motion(double h, double load = 0) { return {.damping =
 /// From the scene with all effects down to free motion; then the sets of effects that this path doesn't have.
 std::vector<Rung> rungs() {
   constexpr double none = std::numeric_limits<double>::infinity();
-  constexpr Stops close{-0.1, 0.12, 0.5, 0.5};  // nearer than the force is strong: chatter, rest, release
-  constexpr Stops wide{-1.2, 1.3, 0.7, 0.6};    // no force can hold the mass on them
-  constexpr Stops elastic{-1.2, 1.3, 1, 1}, single{-1.2, none, 1, 1};
-  constexpr Stops far{-30, 30, 0.7, 0.6};  // out of reach
-  constexpr Stops pressed{-0.5, 0.5, 0.7, 0.7}, narrow{-0.5, 0.6, 1, 1}, lopsided{-0.5, 2, 1, 1};
+  const Stops close{-0.1, 0.12, 0.5, 0.5};  // nearer than the force is strong: chatter, rest, release
+  const Stops wide{-1.2, 1.3, 0.7, 0.6};    // no force can hold the mass on them
+  const Stops elastic{-1.2, 1.3, 1, 1}, single{-1.2, none, 1, 1};
+  const Stops far{-30, 30, 0.7, 0.6};  // out of reach
+  const Stops pressed{-0.5, 0.5, 0.7, 0.7}, narrow{-0.5, 0.6, 1, 1}, lopsided{-0.5, 2, 1, 1};
   constexpr double push = 0.8, light = 0.1, heavy = 2, creeping = 1e-4;  // the last fades little in a run
   constexpr Start moving{.displacement = 0, .velocity = 1};
   return {

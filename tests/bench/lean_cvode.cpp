@@ -106,7 +106,7 @@ class Run {
     const Stops& stops = problem_.stops;
     problem_.left = upper ? 1 : -1;
     NV_DATA_S(y_.get())[0] = upper ? stops.upper : stops.lower;
-    NV_DATA_S(y_.get())[1] = -(upper ? stops.restitution_upper : stops.restitution_lower) * v;
+    NV_DATA_S(y_.get())[1] = -(upper ? stops.restitution_upper : stops.restitution_lower).R * v;
     check(CVodeReInit(cvode_.get(), tau, y_.get()));
     check(CVodeSetStopTime(cvode_.get(), duration_));
   }

@@ -94,7 +94,7 @@ class Run {
     const auto [tau, v] = crossing(from, to, y, position);
     if (tau >= duration_) return false;
     run_.pass(position);
-    const double restitution = upper ? stops_.restitution_upper : stops_.restitution_lower;
+    const double restitution = (upper ? stops_.restitution_upper : stops_.restitution_lower).R;
     stepper_.initialize(Phase{position, -restitution * v}, tau, stepper_.current_time_step());
     return true;
   }

@@ -112,7 +112,7 @@ class Run {
   void strike(double tau) {
     State y = at(tau);
     const double w = y[3], share = loose_.ratio / (1 + loose_.ratio);
-    double after = -(w > 0 ? loose_.restitution_upper : loose_.restitution_lower) * w;
+    double after = -(w > 0 ? loose_.restitution_upper : loose_.restitution_lower).R * w;
     y[1] += share * (w - after), ++end_.impacts;
     const double pressing = side_ * (loose_.load - acceleration(tau, y));
     const bool rests = pressing > 0 && std::abs(after) <= tolerance_;

@@ -17,8 +17,8 @@ std::array<Number*, 16> numbers_in(SceneNumbers<Number>& p) {
   auto& [h, f, nu, load, k] = p.oscillator;
   auto& [lower, upper, R_lower, R_upper, kappa_lower, kappa_upper, zeta_lower, zeta_upper] = p.stops;
   auto& [stops, base, lead, phase] = p.shaking;
-  return {&h,     &f,     &nu,      &load,    &k,           &stops,       &base,       &phase,
-          &lower, &upper, &R_lower, &R_upper, &kappa_lower, &kappa_upper, &zeta_lower, &zeta_upper};
+  return {&h,     &f,     &nu,        &load,      &k,           &stops,       &base,       &phase,
+          &lower, &upper, &R_lower.R, &R_upper.R, &kappa_lower, &kappa_upper, &zeta_lower, &zeta_upper};
 }
 constexpr std::size_t number_of_h = 0, number_of_k = 4, number_of_stops = 5, number_of_base = 6;
 

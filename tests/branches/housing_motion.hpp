@@ -15,7 +15,7 @@ namespace clatter::branches {
 /// impact.
 struct HousingMotion {
   explicit HousingMotion(const FollowedScene& scene) : oscillator(oscillator_in_frame(scene)), wall(scene.loose.upper) {
-    const double nu = oscillator.frequency, R = scene.loose.restitution_lower, eps = scene.loose.ratio;
+    const double nu = oscillator.frequency, R = scene.loose.restitution_lower.R, eps = scene.loose.ratio;
     kick = eps * (1 + R) / (1 + eps);
     slip = (1 - R + kick) / 2;  // the main mass has -slip u before an impact on the upper wall, as the loose one flies
     half = std::numbers::pi / (2 * nu) * (1 - slip);  // half the way from wall to wall over u

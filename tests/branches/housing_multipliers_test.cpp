@@ -23,7 +23,7 @@ TEST(HousingMultipliers, have_the_product_of_all_losses_or_none) {
     const double largest = std::abs(at(0)), span = 2 * std::numbers::pi * point.orbit.period_ratio();
     const auto impacts = static_cast<double>(point.orbit.whole().size());
     const double losses = std::exp(-2 * point.scene.oscillator.damping * span / point.scene.oscillator.frequency) *
-                          std::pow(point.scene.loose.restitution_lower, 2 * impacts);
+                          std::pow(point.scene.loose.restitution_lower.R, 2 * impacts);
     if (largest < 100) {
       EXPECT_NEAR(std::abs(at(0) * at(1) * at(2) * at(3) / losses - 1.0), 0, 1e-8);
       ++known;

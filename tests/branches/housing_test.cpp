@@ -149,7 +149,7 @@ void expect_runs(const sweep::GivenProblem& problem, Parameter along, std::array
                  impacts = static_cast<double>(point.orbit.whole().size());
     EXPECT_NEAR(product,
                 std::exp(-4 * pi * h / nu * point.orbit.period_ratio()) *
-                    std::pow(point.scene.loose.restitution_lower, 2 * impacts),
+                    std::pow(point.scene.loose.restitution_lower.R, 2 * impacts),
                 1e-9)
         << where;
     ++compared;

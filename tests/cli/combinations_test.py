@@ -12,7 +12,6 @@ from followed_branches import BranchCampaign
 from followed_curves import CurveCampaign
 from random_scenes import (
     bumping_scenes,
-    by_speed,
     carrying_scenes,
     followed_scenes,
     rough_scenes,
@@ -21,6 +20,7 @@ from random_scenes import (
     slipping_scenes,
     weak_scenes,
 )
+from restitution_scenes import by_speed
 from sweep_relations import SweepCampaign
 
 CLATTER = os.environ["CLATTER"]

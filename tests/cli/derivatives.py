@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 import numpy as np
-from random_scenes import SPEEDS
+from restitution_scenes import SPEEDS
 from scene_runs import STEADY, Program, keys_of
 
 CLATTER = os.environ["CLATTER"]

@@ -5,24 +5,13 @@ import math
 import random
 from dataclasses import dataclass
 
-import numpy as np
+from restitution_scenes import LAWS, SPEEDS, Laws, logarithmic
 
 INF = math.inf
 
-LAWS = tuple(
-    pre + law for pre in ("", "loose_") for law in ("R_exponent", "R_reference_speed", "R_below", "R_of_speed")
-)
-SPEEDS = tuple(
-    pre + law + side
-    for pre in ("", "loose_")
-    for law in ("R_reference_speed", "R_below")
-    for side in ("_lower", "_upper")
-)
-TABLES = tuple(pre + "R_of_speed" + side for pre in ("", "loose_") for side in ("_lower", "_upper"))
-
 
 @dataclass
-class Scene:
+class Scene(Laws):
     """A scene in units of its own; stops at infinity aren't there, those of infinite stiffness are rigid."""
 
     h: float = 0.0
@@ -43,14 +32,6 @@ class Scene:
     stop_stiffness_upper: float = INF
     stop_damping_lower: float = 0.0
     stop_damping_upper: float = 0.0
-    R_exponent_lower: float = 0.0  # 0: R at every speed
-    R_exponent_upper: float = 0.0
-    R_reference_speed_lower: float = 1.0
-    R_reference_speed_upper: float = 1.0
-    R_below_lower: float = 0.0
-    R_below_upper: float = 0.0
-    R_of_speed_lower: tuple = ()  # speeds and their restitutions, in place of R
-    R_of_speed_upper: tuple = ()
     stop_phase: float = 0.0
     friction: float = 0.0
     friction_static: float = 0.0  # 0: as large as the friction
@@ -59,14 +40,6 @@ class Scene:
     loose_upper: float = INF
     loose_R_lower: float = 1.0
     loose_R_upper: float = 1.0
-    loose_R_exponent_lower: float = 0.0
-    loose_R_exponent_upper: float = 0.0
-    loose_R_reference_speed_lower: float = 1.0
-    loose_R_reference_speed_upper: float = 1.0
-    loose_R_below_lower: float = 0.0
-    loose_R_below_upper: float = 0.0
-    loose_R_of_speed_lower: tuple = ()
-    loose_R_of_speed_upper: tuple = ()
     loose_load: float = 0.0
     loose_x0: float = 0.0
     loose_v0: float = 0.0
@@ -93,10 +66,6 @@ class Scene:
         names += ("loose_lower", "loose_upper", "loose_load", "loose_x0", "loose_v0", *SPEEDS)
         return self.changed(**{name: size * getattr(self, name) for name in names}, **self.tables_in(size))
 
-    def tables_in(self, size):
-        """Those of restitution, with speeds so many times as large."""
-        return {name: tuple((size * v, R) for v, R in getattr(self, name)) for name in TABLES}
-
     def shifted(self, place):
         moved = {name: getattr(self, name) + place for name in ("x0", "stop_lower", "stop_upper")}
         return self.changed(load=self.load + self.stiffness * place, **moved)
@@ -114,29 +83,8 @@ class Scene:
         changes = {name: -getattr(self, name) for name in ("stop_amplitude", "base_amplitude")}
         return self.changed(stop_phase=self.stop_phase + math.pi, **changes)
 
-    def R_at(self, side, speed):
-        """The restitution of a stop, "_lower" or "_upper", at the speed of an impact."""
-        if speed < getattr(self, "R_below" + side):
-            return 0.0
-        if table := getattr(self, "R_of_speed" + side):
-            return float(np.interp(speed, *zip(*table)))
-        R, p = getattr(self, "R" + side), getattr(self, "R_exponent" + side)
-        return max(p / (1 + p), 1 - (1 - R) * (speed / getattr(self, "R_reference_speed" + side)) ** p) if p else R
-
-    def area_factor(self, side, speed):
-        """By how much an impact changes areas of states: R times the derivative of R v by v."""
-        R, p = self.R_at(side, speed), getattr(self, "R_exponent" + side)
-        for (v, low), (faster, high) in itertools.pairwise(getattr(self, "R_of_speed" + side)):
-            if v <= speed < faster and R > 0:
-                return R * (R + speed * (high - low) / (faster - v))
-        return R * (1 - (1 + p) * (1 - R) if p and R > p / (1 + p) else R)
-
     def is_unforced(self):
         return self.f == 0 and self.stop_amplitude == 0 and self.base_amplitude == 0
-
-
-def logarithmic(draw, low, high):
-    return math.exp(draw.uniform(math.log(low), math.log(high)))
 
 
 def drawn(draw):
@@ -215,41 +163,6 @@ def rubbed_scenes(count, seed):
     """Those of `random_scenes` that may have dry friction, all with it."""
     draw = random.Random(f"friction {seed}")
     return [rubbed(draw, scene) for scene in random_scenes(count, seed) if not scene.stop_amplitude]
-
-
-def table(draw):
-    """Speeds and restitutions by which a faster impact rebounds faster."""
-    v, R = draw.choice([0.0, logarithmic(draw, 0.05, 0.5)]), draw.uniform(0.4, 0.95)
-    knots = [(v, R)]
-    for _ in range(draw.choice([0, 1, 2, 3])):
-        faster = v + logarithmic(draw, 0.2, 2)
-        least = faster / (2 * faster - v)  # of R, at which its product with v just rises
-        v, R = faster, min(0.95, R * draw.uniform(max(0.7, 1.01 * least), 1.1))
-        knots.append((v, R))
-    return tuple(knots)
-
-
-def by_speed(scenes, seed, tables=0.3):
-    """The scenes with restitutions that depend on the speed, at one stop or wall or more; a share of them tables."""
-    draw = random.Random(f"speed {seed}")
-    changed = []
-    for scene in scenes:
-        laws = {}
-        for pre, rigid in (("", "stop_stiffness"), ("loose_", "")):
-            for side in ("_lower", "_upper"):
-                if rigid and not math.isinf(getattr(scene, rigid + side)) or draw.random() < 0.2:
-                    continue
-                if draw.random() < tables:
-                    laws |= {f"{pre}R{side}": 1.0, f"{pre}R_of_speed{side}": table(draw)}
-                elif draw.random() < 0.7:
-                    p = draw.choice([0.2, draw.uniform(0.05, 0.5)])
-                    R = getattr(scene, f"{pre}R{side}")
-                    laws |= {f"{pre}R_exponent{side}": p, f"{pre}R{side}": max(R, p / (1 + p))}
-                    laws[f"{pre}R_reference_speed{side}"] = logarithmic(draw, 0.2, 3)
-                if draw.random() < 0.4:
-                    laws[f"{pre}R_below{side}"] = logarithmic(draw, 1e-3, 0.2)
-        changed.append(scene.changed(**laws))
-    return changed
 
 
 def compliant(draw):

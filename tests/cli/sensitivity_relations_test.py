@@ -13,7 +13,8 @@ import unittest
 import numpy as np
 from derivatives import OF_MACHINE, OF_SCENE, PERIODIC, RESULTS, SETTLE, SIDES, STARTS, Family, OfScenes
 from derivatives import derivative, families, same_motion
-from random_scenes import INF, by_speed, compliant_scenes, pressing_scenes, random_scenes, rubbed
+from random_scenes import INF, compliant_scenes, pressing_scenes, random_scenes, rubbed
+from restitution_scenes import by_speed
 from scene_runs import STEADY, keys_of, machine_keys
 
 COUNT, _, SEED = os.environ.get("CLATTER_SENSITIVITY", "150").partition(":")

@@ -37,7 +37,7 @@ Json json_of(const Stops& stops, Side side) {
   const bool upper = side == Side::upper;
   Json stop{{"position", upper ? stops.upper : stops.lower}};
   if (!is_soft(stops, side)) {
-    stop["R"] = upper ? stops.restitution_upper : stops.restitution_lower;
+    stop["R"] = (upper ? stops.restitution_upper : stops.restitution_lower).R;
     return stop;
   }
   stop["stiffness"] = upper ? stops.stiffness_upper : stops.stiffness_lower;

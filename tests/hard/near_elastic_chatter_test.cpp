@@ -28,7 +28,7 @@ long double end_of_chatter(long double R) {
 TEST(NearElasticChatter, ends_where_the_sum_of_its_flights_says) {
   for (const char* what : {"R = 0.99", "R = 0.999", "R = 0.99999"}) {
     const Case& one = case_of("near_elastic_chatter", what);
-    const double R = one.scene.stops.restitution_upper, end = static_cast<double>(end_of_chatter(R));
+    const double R = one.scene.stops.restitution_upper.R, end = static_cast<double>(end_of_chatter(R));
     Measured m;
     m.record = accuracy::record_of(one.scene, one.duration);
     ASSERT_EQ(m.record.outcome, stepping::Outcome::completed) << what;

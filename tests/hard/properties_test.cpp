@@ -225,8 +225,8 @@ struct Area : Watcher {
   [[nodiscard]] double expected(const AnyScene& any) const {
     const Stops& stops = any.scene.stops;
     double sum = -2 * damping * any.duration - in_stops;
-    if (on_lower > 0) sum += 2 * on_lower * std::log(stops.restitution_lower);
-    if (on_upper > 0) sum += 2 * on_upper * std::log(stops.restitution_upper);
+    if (on_lower > 0) sum += 2 * on_lower * std::log(stops.restitution_lower.R);
+    if (on_upper > 0) sum += 2 * on_upper * std::log(stops.restitution_upper.R);
     return sum;
   }
 

@@ -34,7 +34,7 @@ class Rescan : public Watcher {
   }
   void impact(const motion::Event& impact) {
     const bool upper = impact.side == Side::upper, moving_in = upper ? impact.before > 0 : impact.before < 0;
-    const double R = upper ? stops_.restitution_upper : stops_.restitution_lower;
+    const double R = (upper ? stops_.restitution_upper : stops_.restitution_lower).R;
     if (impact.after != (moving_in ? -R * impact.before : impact.before)) broken = infinity;
     check_arrival(impact.place, impact.before);
     x_ = impact.place, v_ = impact.after, rebound_ = impact.after;

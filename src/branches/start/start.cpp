@@ -171,7 +171,8 @@ void require_soft_stop(const FollowedScene& scene, Parameter parameter, const st
   if (is_of_soft && !of_any(soft))
     throw SettingError(asked + " is of a soft stop, and this one is rigid; give " +
                        (scene.given.is_si ? "machine." : "scene.") + with_side("stop_stiffness", parameter.side()));
-  if ((parameter.role() == Role::restitution || parameter.role() == Role::law_of_speed) && !of_any([&](Side side) { return !soft(side); }))
+  if ((parameter.role() == Role::restitution || parameter.role() == Role::law_of_speed) &&
+      !of_any([&](Side side) { return !soft(side); }))
     throw SettingError(asked + " has no effect on a soft stop; take stop_damping or stop_R");
 }
 
