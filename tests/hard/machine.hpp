@@ -9,8 +9,8 @@ namespace clatter::hard {
 
 inline constexpr double no_stop = std::numeric_limits<double>::infinity();
 
-/// How the restitution of a stop or wall depends on the speed v of the impact, beside its plain number R: not at all, as
-/// 1 - (1 - R) (v/V)^p, but no less than p/(1 + p), or by knots in place of both, along straight lines between them.
+/// How the restitution of a stop or wall depends on the speed v of the impact, beside its plain number R: not at all,
+/// as 1 - (1 - R) (v/V)^p, but no less than p/(1 + p), or by knots in place of both, along straight lines between them.
 struct Law {
   struct Knot {
     double speed, R;
