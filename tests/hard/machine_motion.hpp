@@ -114,8 +114,10 @@ struct Motion {
     stops = {contact(scene.lower, {scene.restitution_lower, scene.law_lower}, scene.kappa_lower, scene.zeta_lower),
              contact(scene.upper, {scene.restitution_upper, scene.law_upper}, scene.kappa_upper, scene.zeta_upper)};
     const Quad reduced = Quad(scene.loose_mass) / (1 + Quad(scene.loose_mass));
-    walls = {contact(scene.wall_lower, {scene.wall_R_lower, scene.wall_law_lower}, scene.wall_kappa_lower, scene.wall_zeta_lower, reduced),
-             contact(scene.wall_upper, {scene.wall_R_upper, scene.wall_law_upper}, scene.wall_kappa_upper, scene.wall_zeta_upper, reduced)};
+    walls = {contact(scene.wall_lower, {scene.wall_R_lower, scene.wall_law_lower}, scene.wall_kappa_lower,
+                     scene.wall_zeta_lower, reduced),
+             contact(scene.wall_upper, {scene.wall_R_upper, scene.wall_law_upper}, scene.wall_kappa_upper,
+                     scene.wall_zeta_upper, reduced)};
     has_loose = scene.loose_mass > 0 && (walls[0].exists || walls[1].exists);
     if (!has_loose) walls[0].exists = walls[1].exists = false;
     for (const int side : {-1, 1})

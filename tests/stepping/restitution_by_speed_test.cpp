@@ -51,15 +51,16 @@ std::vector<Known> every_law() {
   const auto viscoelastic = [](Real v) { return 1 - 0.4L * std::pow(v, 0.2L); };
   Law in_units = by_knots({{0.2, 0.9}, {1, 0.7}, {2, 0.8}});
   in_units.unit = 0.5;
-  return {{by_knots({{0.1, 0.9}, {0.5, 0.7}, {1, 0.8}}), knots},
-          {in_units, knots},
-          {by_knots({{0.3, 0.6}}), [](Real) { return 0.6L; }},
-          {by_power(0.6, 0.2, 1), viscoelastic},
-          {by_power(1 - 0.4 * std::pow(0.03, 0.2), 0.2, 0.03), viscoelastic},
-          {by_power(0.25, 0.5, 0.25), [](Real v) { return std::max(1 - 1.5L * std::sqrt(v), 1 / 3.0L); }},
-          {but_below(0.8, 0.01), [](Real v) { return v < 0.01L ? 0 : 0.8L; }},
-          {but_below(by_knots({{0.1, 0.9}, {0.5, 0.7}, {1, 0.8}}), 0.3), [=](Real v) { return v < 0.3L ? 0 : knots(v); }},
-          {but_below(by_power(0.6, 0.2, 1), 0.02), [=](Real v) { return v < 0.02L ? 0 : viscoelastic(v); }}};
+  return {
+      {by_knots({{0.1, 0.9}, {0.5, 0.7}, {1, 0.8}}), knots},
+      {in_units, knots},
+      {by_knots({{0.3, 0.6}}), [](Real) { return 0.6L; }},
+      {by_power(0.6, 0.2, 1), viscoelastic},
+      {by_power(1 - 0.4 * std::pow(0.03, 0.2), 0.2, 0.03), viscoelastic},
+      {by_power(0.25, 0.5, 0.25), [](Real v) { return std::max(1 - 1.5L * std::sqrt(v), 1 / 3.0L); }},
+      {but_below(0.8, 0.01), [](Real v) { return v < 0.01L ? 0 : 0.8L; }},
+      {but_below(by_knots({{0.1, 0.9}, {0.5, 0.7}, {1, 0.8}}), 0.3), [=](Real v) { return v < 0.3L ? 0 : knots(v); }},
+      {but_below(by_power(0.6, 0.2, 1), 0.02), [=](Real v) { return v < 0.02L ? 0 : viscoelastic(v); }}};
 }
 
 /// Thrown up from a floor, against a weight.
@@ -165,8 +166,11 @@ double end_of_chatter(const Law& law) {
 }
 
 TYPED_TEST(RestitutionBySpeed, of_knots_ends_a_chatter_where_all_its_flights_do) {
-  for (const std::vector<SpeedTable::Knot>& knots : std::vector<std::vector<SpeedTable::Knot>>{
-           {{0, 0.9}, {0.5, 0.6}}, {{0, 0.5}, {2, 1}}, {{0, 0.95}, {1e-6, 0.9}, {1e-3, 0.7}}, {{1e-4, 0.8}, {1, 0.9}}}) {
+  for (const std::vector<SpeedTable::Knot>& knots :
+       std::vector<std::vector<SpeedTable::Knot>>{{{0, 0.9}, {0.5, 0.6}},
+                                                  {{0, 0.5}, {2, 1}},
+                                                  {{0, 0.95}, {1e-6, 0.9}, {1e-3, 0.7}},
+                                                  {{1e-4, 0.8}, {1, 0.9}}}) {
     const Brute sum = brute_sum([&](Real v) { return on_lines(knots, v); }, 1e-25L);
     EXPECT_NEAR(end_of_chatter<TypeParam>(by_knots(knots)) / static_cast<double>(sum.time), 1, 1e-14) << knots.size();
   }
@@ -180,7 +184,8 @@ TYPED_TEST(RestitutionBySpeed, of_a_power_ends_a_chatter_where_all_its_flights_d
   };
   for (const auto& [R, p, last] : {OfPower{0.6, 0.2, 1e-20L}, {0.7, 0.1, 1e-25L}, {0.5, 0.3, 1e-17L}}) {
     const Real power = p, C = 1 - Real(R);
-    const Brute sum = brute_sum([&](Real v) { return std::max(1 - C * std::pow(v, power), power / (1 + power)); }, last);
+    const Brute sum =
+        brute_sum([&](Real v) { return std::max(1 - C * std::pow(v, power), power / (1 + power)); }, last);
     const Real tail = 2 * std::pow(sum.last, 1 - power) / (weight * C * (1 - power));
     ASSERT_LT(tail, 1e-10L);
     EXPECT_NEAR(end_of_chatter<TypeParam>(by_power(R, p, 1)) / static_cast<double>(sum.time + tail), 1, 1e-14) << p;
