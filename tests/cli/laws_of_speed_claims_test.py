@@ -17,7 +17,7 @@ from claimed_events import holder_of_R, speed_in
 from command_line import CommandLine
 from forger_judge import Judge, Truth, Unreliable
 from forgers_test import Forgers
-from laws_of_speed import ends_in_chatter, kinks, law_of, share
+from laws_of_speed import kinks, law_of, share
 
 FORGED, SEED = int(os.environ.get("CLATTER_FORGED", "600")), int(os.environ.get("CLATTER_SEED", "1"))
 ERROR = 1e-15
@@ -193,7 +193,7 @@ def drawn_scene(draw, housed):
 
 
 TIMES = {
-    "steady": 'max_periods = 600\n',
+    "steady": "max_periods = 600\n",
     "transient": 'mode = "transient"\nduration = 20\n',
 }
 

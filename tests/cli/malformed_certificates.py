@@ -212,7 +212,7 @@ MALFORMED = MALFORMED_LAWS + [  # a line, and the place and how to fix it that a
         with_loose_mass(
             {key: LOOSE[key] for key in LOOSE if key != "upper"},
             **PERIOD,
-            start={"time": 0, "x": [0, 1], "v": [0, 1], "pressed": "upper"}
+            start={"time": 0, "x": [0, 1], "v": [0, 1], "pressed": "upper"},
         ),
         "start.pressed: is a wall that isn't there; give the housing that wall, or z and w",
     ),
