@@ -77,7 +77,8 @@ bool default_counts(const Settings& settings, const Key& key) {
   if (is_of_soft_walls(key) && !has_soft_wall) return false;
   if (key.other == "xs" || key.other == "gap") return !settings.given_symmetric_stops();
   if (!key.other.empty())
-    return !key.fallback.empty() && (is_half_given(settings, key.other) || has_speed_table(settings, key.other));
+    return !key.fallback.empty() &&
+           (is_half_given(settings, key.other) || (has_speed_table(settings, key.other) && !is_law_of_speed(key)));
   if (is_half_given(settings, key.name) || is_law_of_speed(key)) return false;
   if (key.name == "x0" || key.name == "v0") return !settings.given("start_period");
   if (key.name == "damping") return !settings.given("damping_ratio") && !settings.given("quality");

@@ -211,14 +211,12 @@ void set_speed_tables(const Settings& settings, GivenScene& scene) {
       }
 }
 
-bool has_speed_table(const Settings& settings, std::string_view restitution) {
-  for (const KeysOfLaw& law : laws) {
-    const bool lower = table_at(settings, law, Side::lower) != nullptr,
-               upper = table_at(settings, law, Side::upper) != nullptr;
-    if (restitution == law.R.key()) return lower || upper;
-    if (restitution == half_of(law.R, Side::lower).key()) return lower;
-    if (restitution == half_of(law.R, Side::upper).key()) return upper;
-  }
+bool has_speed_table(const Settings& settings, std::string_view name) {
+  for (const KeysOfLaw& law : laws)
+    for (const Parameter both : {law.R, law.exponent, law.reference})
+      for (const Side side : {Side::lower, Side::upper})
+        if ((name == both.key() || name == half_of(both, side).key()) && table_at(settings, law, side) != nullptr)
+          return true;
   return false;
 }
 

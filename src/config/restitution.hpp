@@ -16,7 +16,7 @@ namespace clatter::config {
 void set_speed_tables(const Settings& settings, GivenScene& scene);
 
 /// Whether a table takes the place of a key of restitution, for the stop of the key or for one of both.
-[[nodiscard]] bool has_speed_table(const Settings& settings, std::string_view restitution);
+[[nodiscard]] bool has_speed_table(const Settings& settings, std::string_view name);
 
 /// Under which condition a key has no effect, and how it would have one.
 struct NoEffect {

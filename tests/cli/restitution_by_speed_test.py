@@ -153,7 +153,14 @@ class Tables(LooseMass):
     def test_the_configuration_of_a_file_is_read_again(self):
         stops = {key: value for key, value in DRIVEN.items() if key != "R_of_speed"}
         power = {"R": 0.7, "R_exponent": 0.2, "R_reference_speed_lower": 1.0, "R_reference_speed_upper": 2.0}
-        for law in ({"R_of_speed": TABLE}, {"R_of_speed_lower": TABLE}, power, {"R_below_upper": 0.1, "R_lower": 0.5}):
+        mixed = {"R_of_speed_lower": TABLE, "R_upper": 0.7, "R_exponent_upper": 0.2, "R_reference_speed_upper": 1.0}
+        for law in (
+            {"R_of_speed": TABLE},
+            {"R_of_speed_lower": TABLE},
+            power,
+            {"R_below_upper": 0.1, "R_lower": 0.5},
+            mixed,
+        ):
             one = self.run_clatter(text_of(stops | law, TRANSIENT, {"extrema": True}), "one", options=("--force",))
             with h5py.File(one) as file:
                 again = self.run_clatter(file.attrs["config"], "again", options=("--force",))

@@ -4,6 +4,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 
+#include "branches/walk/corner.hpp"
 #include "branches/walk/resonance.hpp"
 
 namespace clatter::branches {
@@ -23,13 +24,23 @@ std::optional<CurvePoint> Walk::next() {
   constexpr double least_cosine = 0.98, shortest = 1e-9;
   for (; step_ > shortest * limits_.largest_step; step_ /= 2) {
     const std::optional<CurvePoint> point = after(step_);
-    if (!point) continue;
-    const double cosine = product(point->tangent, here_.tangent);
-    if (!(cosine > least_cosine) || may_resonate_between(equations_, here_.at, point->at)) continue;
+    const double cosine = point ? product(point->tangent, here_.tangent) : 0.0;
+    if (!(cosine > least_cosine)) {
+      if (const auto beyond = past_corner(step_)) return beyond;
+      continue;
+    }
+    if (may_resonate_between(equations_, here_.at, point->at)) continue;
     if (cosine > 0.998) step_ = std::min(1.6 * step_, limits_.largest_step);
     return point;
   }
   return std::nullopt;
+}
+
+/// The point just beyond a corner that the next step comes to, if it does.
+std::optional<CurvePoint> Walk::past_corner(double step) const {
+  const Vector predicted = sum(here_.at, step, here_.tangent);
+  const auto corner = corner_between(equations_, here_.at, predicted);
+  return corner ? beyond_corner(equations_, here_, predicted, *corner, limits_.tolerance) : std::nullopt;
 }
 
 bool Walk::passes(const CurvePoint& other, const CurvePoint& next) const {

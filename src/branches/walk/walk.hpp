@@ -51,6 +51,7 @@ class Walk {
   [[nodiscard]] std::optional<CurvePoint> zero(const TestFunction& test, double to, double from = 0.0) const;
 
  private:
+  [[nodiscard]] std::optional<CurvePoint> past_corner(double step) const;
   [[nodiscard]] std::optional<CurvePoint> zero_between_reached(const TestFunction& test, double to, double from) const;
 
   const OrbitEquations& equations_;
