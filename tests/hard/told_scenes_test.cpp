@@ -20,7 +20,7 @@ TEST(CarryingScenes, are_told_event_by_event_as_taylor_series_tell_them) {
   compare({"carrying", any_carrying_scene, 150});
 }
 TEST(SlidingScenes, of_which_the_restitution_depends_on_the_speed_are_told_as_taylor_series_tell_them) {
-  compare({"sliding, by speed", by_speed<any_sliding_scene>, 30}, 0.8);
+  compare({"sliding, by speed", by_speed<any_sliding_scene>, 12}, 0.8);
 }
 TEST(CarryingScenes, of_which_the_restitution_depends_on_the_speed_are_told_as_taylor_series_tell_them) {
   compare({"carrying, by speed", by_speed<any_carrying_scene>, 15}, 0.8);
