@@ -5,6 +5,17 @@ Numbers are those of a type: doubles, or decimals of many digits.
 
 from decimal import Decimal
 
+LAWS = {
+    "power": {"R": "0.7", "exponent": "0.2", "reference_speed": "1"},
+    "power down to its least": {"R": "0.4", "exponent": "0.5", "reference_speed": "1.1"},
+    "threshold": {"R": "0.7", "below": "0.3"},
+    "table": {"table": [["0.1", "0.9"], ["0.5", "0.8"], ["2", "0.6"]]},
+    "table in units": {"table": [["0.1", "0.9"], [1, "0.8"], ["4", "0.6"]], "unit": "0.37", "below": "0.05"},
+    "power above a threshold": {"R": "0.7", "exponent": "0.2", "reference_speed": "1.5", "below": "0.2"},
+    "table from 0": {"table": [[0, "0.4"], [1, "0.9"]]},
+    "table without a slow rebound": {"table": [["0.3", 0], ["1", "0.9"]]},
+}
+
 
 def law_of(rigid):
     """The law of a rigid stop or of a wall: an object, also if R is one number."""

@@ -17,21 +17,10 @@ from claimed_events import holder_of_R, speed_in
 from command_line import CommandLine
 from forger_judge import Judge, Truth, Unreliable
 from forgers_test import Forgers
-from laws_of_speed import kinks, law_of, share
+from laws_of_speed import LAWS, kinks, law_of, share
 
 FORGED, SEED = int(os.environ.get("CLATTER_FORGED", "600")), int(os.environ.get("CLATTER_SEED", "1"))
 ERROR = 1e-15
-
-LAWS = {
-    "power": {"R": "0.7", "exponent": "0.2", "reference_speed": "1"},
-    "power down to its least": {"R": "0.4", "exponent": "0.5", "reference_speed": "1.1"},
-    "threshold": {"R": "0.7", "below": "0.3"},
-    "table": {"table": [["0.1", "0.9"], ["0.5", "0.8"], ["2", "0.6"]]},
-    "table in units": {"table": [["0.1", "0.9"], [1, "0.8"], ["4", "0.6"]], "unit": "0.37", "below": "0.05"},
-    "power above a threshold": {"R": "0.7", "exponent": "0.2", "reference_speed": "1.5", "below": "0.2"},
-    "table from 0": {"table": [[0, "0.4"], [1, "0.9"]]},
-    "table without a slow rebound": {"table": [["0.3", 0], ["1", "0.9"]]},
-}
 
 
 def text(number):
