@@ -6,6 +6,7 @@
 
 #include "branches/measures/measures.hpp"
 #include "branches/measures/moving.hpp"
+#include "branches/walk/rebound_threshold.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::certificates {
@@ -128,6 +129,9 @@ constexpr double of_special = 1e-12;  ///< error over the size, where the place 
 }  // namespace
 
 CertifiedPoint certified(const BranchPoint& point, const StartProblem& start) {
+  constexpr double rounding = 1e-9;  // which decides whether a run's impact rebounds
+  if (branches::impact_without_rebound(point.scene, point.orbit, rounding))
+    return {.status = steady::Status::periodic, .without = Without::law_of_speed};
   const attractors::SectionState state = branches::state_at_phase_zero(point.scene, point.orbit);
   const observables::Extrema::Values range = branches::extrema_as_computed(point.scene, point.orbit);
   const Stops rigid = rigid_ones(point.scene.stops);

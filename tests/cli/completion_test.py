@@ -200,7 +200,9 @@ class Fish(unittest.TestCase):
 
     def test_keys_and_their_values(self):
         offered = self.offered("clatter run --set scene.R")
-        self.assertEqual(set(offered), {"scene.R=", "scene.R_lower=", "scene.R_upper="})
+        laws = ("R", "R_of_speed", "R_exponent", "R_reference_speed", "R_below")
+        sides = ("", "_lower", "_upper")
+        self.assertEqual(set(offered), {f"scene.{law}{side}=" for law in laws for side in sides})
         self.assertIn("0 ... 1; default: 1", offered["scene.R="])
         self.assertEqual(set(self.offered("clatter run --set time.mode=")), {"time.mode=steady", "time.mode=transient"})
 

@@ -5,6 +5,7 @@ Environment: CLATTER, the program.
 
 import math
 import random
+import subprocess
 import unittest
 
 import h5py
@@ -12,7 +13,7 @@ import numpy as np
 
 import loose_friction_test as friction
 import loose_mass_relations_test as relations
-from command_line import CommandLine
+from command_line import CLATTER, LONGEST, CommandLine
 from loose_mass_test import LooseMass, text_of
 
 
@@ -218,6 +219,45 @@ class Refusals(CommandLine):
         self.refused({"R": 0.9, "R_exponent": 1.0, "R_reference_speed": 1.0}, ">= 0 and < 1")
         self.refused({"R": 0.9, "R_exponent": 0.2, "R_reference_speed": 0.0}, "R_reference_speed = 0")
         self.refused({"R_below": -0.1}, "R_below = -0.1")
+
+
+class Branches(LooseMass):
+    def followed(self, scene, limits, keys=""):
+        text = text_of(scene, {}, {"stability": True, "word": True, "impacts": True})
+        (self.scratch / "b.toml").write_text(
+            f'{text}[branch]\nalong = "nu"\nrange = {limits}\n{keys}', encoding="utf-8"
+        )
+        output = self.scratch / "b.h5"
+        command = [CLATTER, "branch", self.scratch / "b.toml", "-o", output, "--force"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=LONGEST)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(output) as file:
+            return {key: value[()] for key, value in file.items() if isinstance(value, h5py.Dataset)}
+
+    def test_a_branch_ends_where_an_impact_comes_down_to_the_threshold(self):
+        scene = {"h": 0.1, "f": 1.0, "nu": 0.9, "stop_upper": 1.2, "R": 0.6, "R_below": 0.2}
+        found = self.followed(scene | {"R_exponent": 0.2, "R_reference_speed": 1.0}, [0.4, 1.6])
+        ends = found["special_kind"] == b"rebound threshold"
+        self.assertEqual(ends.sum(), 2)
+        np.testing.assert_allclose(found["special_impact_speed"][ends], 0.2, rtol=1e-10)
+        self.assertGreaterEqual(found["impact_speed"].min(), 0.2 * (1 - 1e-10))
+
+    def test_a_branch_goes_on_past_the_corners_of_a_table(self):
+        table = "0.1: 0.9, 0.6: 0.88, 1.3: 0.62, 2.0: 0.6"
+        scene = {"h": 0.05, "f": 1.0, "nu": 1.7, "stop_upper": 0.3, "R_of_speed": table}
+        found = self.followed(scene, [1.6, 2.05], "switch = 0\n")
+        jumps = np.abs(np.diff(found["multiplier_re"].sum(axis=1)))
+        corner = int(jumps.argmax())
+        self.assertGreater(jumps[corner], 0.3)
+        speeds = found["impact_speed"][corner : corner + 2]
+        self.assertLess(abs(speeds - 1.3).max(), 0.02)
+        for point in (corner, corner + 1):
+            start = {"nu": float(found["nu"][point]), "x0": float(found["x"][point]), "v0": float(found["v"][point])}
+            steady = self.steady(scene | start)
+            self.assertEqual(steady["status"], 0)
+            told = np.poly(found["multiplier_re"][point] + 1j * found["multiplier_im"][point])
+            known = np.poly(steady["multiplier_re"] + 1j * steady["multiplier_im"])
+            np.testing.assert_allclose(told, known, atol=1e-7)
 
 
 if __name__ == "__main__":

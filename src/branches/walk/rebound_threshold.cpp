@@ -5,7 +5,7 @@
 namespace clatter::branches {
 namespace {
 
-/// By how much an impact is faster than one without a rebound; nothing of other events.
+/// By how much an impact is faster than one without a rebound, over the speed of that; nothing of other events.
 std::optional<double> margin_of(const FollowedScene& scene, const OrbitEvent& event) {
   if (!is_impact(event.kind)) return std::nullopt;
   const bool upper = event.side == Side::upper;
@@ -13,14 +13,14 @@ std::optional<double> margin_of(const FollowedScene& scene, const OrbitEvent& ev
   const Restitution<double>& law = !event.is_of_wall() ? law_of(scene.stops, event.side)
                                    : upper             ? loose.restitution_upper
                                                        : loose.restitution_lower;
-  return law.below > 0 ? std::optional(std::abs(event.before) - law.below) : std::nullopt;
+  return law.below > 0 ? std::optional(std::abs(event.before) / law.below - 1) : std::nullopt;
 }
 
 }  // namespace
 
-std::optional<std::size_t> impact_without_rebound(const FollowedScene& scene, const Orbit& orbit) {
+std::optional<std::size_t> impact_without_rebound(const FollowedScene& scene, const Orbit& orbit, double within) {
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (const auto margin = margin_of(scene, orbit.events[i]); margin && *margin < 0) return i;
+    if (const auto margin = margin_of(scene, orbit.events[i]); margin && *margin < within) return i;
   return std::nullopt;
 }
 
