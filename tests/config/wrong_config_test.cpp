@@ -136,7 +136,8 @@ TEST(EveryNumber, out_of_its_range_is_refused_with_the_range) {
     const std::string words = "out of range; expected " + permitted(key);
     if (range.not_zero) expect_wrong_value(key, "0", words);
     if (std::isfinite(range.low)) expect_wrong_value(key, "-1", words);
-    if (std::isfinite(range.low) && range.open) expect_wrong_value(key, number_text(range.low), words);
+    if (std::isfinite(range.low) && range.open && !range.or_zero)
+      expect_wrong_value(key, number_text(range.low), words);
     if (std::isfinite(range.high)) expect_wrong_value(key, toml_number(range.high * 2 + 1), words);
     if (std::isfinite(range.high) && range.open) expect_wrong_value(key, toml_number(range.high), words);
     bounded += range.not_zero || std::isfinite(range.low) ? 1 : 0;
@@ -203,9 +204,18 @@ TEST(EveryText, with_a_nul_is_refused_since_a_file_ends_it_there) {
   }
 }
 
+TEST(EveryAxis, of_a_text_is_refused_with_the_reason) {
+  for (const Key& key : keys())
+    if (describes_scene(key.section) && key.kind == Kind::text) {
+      const std::string name(key.name), axis = "[sweep]\n" + name + " = [0.5, 0.6]\n";
+      const std::string found = mistake_in("a.toml", axis);
+      EXPECT_NE(found.find(name + " is a text, and an axis has numbers"), std::string::npos) << found;
+    }
+}
+
 TEST(EveryAxis, is_checked_like_the_scene) {
   for (const Key& key : keys()) {
-    if (key.section != "scene") continue;
+    if (key.section != "scene" || key.kind != Kind::number) continue;
     const std::string name(key.name);
     const int column = static_cast<int>(name.size()) + 4;
     for (const std::string file : {"a.toml", "a.ini"}) {
