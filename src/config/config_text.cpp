@@ -127,9 +127,11 @@ std::string shown_value(const Key& key, Format format) {
 }
 
 /// Whether a key of the commented configuration is in use. Of keys without a default only xs is, since a scene needs
-/// stops; [machine] isn't, since [scene] is, nor is a loose mass, which goes with no stops.
+/// stops; [machine] isn't, since [scene] is, nor are a loose mass, which goes with no stops, and what makes R depend
+/// on the speed.
 bool is_used(const Key& key) {
-  return key.section != "machine" && !is_of_loose_mass(key) && (key.has_default() || key.name == "xs");
+  return key.section != "machine" && !is_of_loose_mass(key) && !is_law_of_speed(key) &&
+         (key.has_default() || key.name == "xs");
 }
 
 /// One key of the commented configuration below its meaning.

@@ -140,7 +140,8 @@ Reason dissipation_reason(const point::Problem& scene, const Effects& effects) {
   if (!effects.dissipation) return {"dissipation", false, "R = 1: impacts keep the speed"};
   const std::string lower = described(stops.restitution_lower), upper = described(stops.restitution_upper);
   if (lower == upper || !effects.lower || !effects.upper) return {"dissipation", true, effects.lower ? lower : upper};
-  return {"dissipation", true, lower + " and " + upper};
+  const bool are_numbers = stops.restitution_lower.is_constant() && stops.restitution_upper.is_constant();
+  return {"dissipation", true, lower + " and " + (are_numbers ? text(stops.restitution_upper.R) : upper)};
 }
 
 /// Stops that are springs and dampers.
