@@ -39,12 +39,32 @@ constexpr std::array keys_of_file{
         "origin of the configuration, e.g. a DOI, kept in the output file"},
 };
 
+/// A speed of one side, and the lines beside which it has an effect: the exponent of that side is enough.
+struct BesideOfHalf {
+  std::string_view key, in_scene, in_machine;
+};
+constexpr std::array beside_of_halves{
+    BesideOfHalf{"R_reference_speed_lower", "xs = 1.0\nR = 0.7\nR_exponent_lower = 0.2\n",
+                 "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nR = 0.7\nR_exponent_lower = 0.2\n"},
+    BesideOfHalf{"R_reference_speed_upper", "xs = 1.0\nR = 0.7\nR_exponent_upper = 0.2\n",
+                 "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nR = 0.7\nR_exponent_upper = 0.2\n"},
+    BesideOfHalf{"loose_R_reference_speed_lower",
+                 "f = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_gap = 1.9\nloose_R = 0.6\nloose_R_exponent_lower = 0.2\n",
+                 "mass = 0.25\nstiffness = 800.0\nforce = 4.0\nfrequency = 9.0\nloose_mass = 0.01\nloose_gap = 8e-3\n"
+                 "loose_R = 0.6\nloose_R_exponent_lower = 0.2\n"},
+    BesideOfHalf{"loose_R_reference_speed_upper",
+                 "f = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_gap = 1.9\nloose_R = 0.6\nloose_R_exponent_upper = 0.2\n",
+                 "mass = 0.25\nstiffness = 800.0\nforce = 4.0\nfrequency = 9.0\nloose_mass = 0.01\nloose_gap = 8e-3\n"
+                 "loose_R = 0.6\nloose_R_exponent_upper = 0.2\n"}};
+
 /// The key of a parameter in one of the sections that describe a scene. In [scene] nothing but an angle has a unit.
 Key key_of(Parameter parameter, bool is_si) {
   const auto& row = parameter.row();
   const KeyText& words = is_si ? row.in_machine : row.in_scene;
   Key key{is_si ? "machine" : "scene", row.key, number, words.fallback, words.example, words.help, row.range};
   key.other = row.other, key.beside = words.beside;
+  for (const auto& [name, in_scene, in_machine] : beside_of_halves)
+    if (row.key == name) key.beside = is_si ? in_machine : in_scene;
   if (is_si || row.quantity == Quantity::angle) key.quantity = row.quantity;
   for (const Parameter other : all_parameters) {
     if (is_si && other.key() == row.other && !other.is_in("machine")) key.other = other.row().counterpart;
