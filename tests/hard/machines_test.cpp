@@ -285,7 +285,7 @@ TEST(Machines, that_only_rub_in_the_housing_are_told_as_taylor_series_tell_them)
 }
 
 TEST(Machines, with_soft_walls_are_told_as_taylor_series_tell_them) {
-  expect_told_as_by_taylor_series({"soft walls", any_soft_walled_machine, 40});
+  expect_told_as_by_taylor_series({"soft walls", any_soft_walled_machine, 20});
 }
 
 TEST(Machines, of_which_the_restitution_depends_on_the_speed_are_told_as_taylor_series_tell_them) {
