@@ -9,18 +9,12 @@
 
 #include "branches/measures/measures.hpp"
 #include "branches/start/resting.hpp"
+#include "branches/walk/rebound_threshold.hpp"
 
 namespace clatter::branches {
 namespace {
 
-/// Whether the smallest change decides if an impact rebounds.
-bool is_at_threshold(const FollowedScene& scene, const Orbit& orbit) {
-  constexpr double about = 1e-6;  // of the speed, to which the halving of a step brings it
-  return std::ranges::any_of(orbit.events, [&](const OrbitEvent& event) {
-    const Restitution<double>& law = law_of(scene.stops, event.side);
-    return event.kind == Event::Kind::impact && std::abs(std::abs(event.before) - law.below) < about * law.below;
-  });
-}
+constexpr double of_threshold = 1e-6;  ///< share of the speed, to which the halving of a step brings an impact
 
 std::ptrdiff_t rests_of(const Orbit& orbit) {
   return std::ranges::count_if(orbit.events, [](const OrbitEvent& event) { return event.rest > 0; });
@@ -128,7 +122,8 @@ void RestingBranch::walk(Orbit here_orbit, int heading) {
     here_orbit = good, here = last;
     if (beyond) {
       const std::optional<Orbit> other = orbit(*beyond, stop_, here_orbit);
-      const bool jumps = is_at_threshold(scene(last), good) || (other && is_at_threshold(scene(*beyond), *other));
+      const bool jumps = is_at_threshold(scene(last), good, of_threshold) ||
+                         (other && is_at_threshold(scene(*beyond), *other, of_threshold));
       if (!other || jumps || is_new_contact(good, *other)) return end(last, good, *beyond, other, heading);
       here_orbit = *other, here = *beyond;  // an impact passed another in speed
     }
@@ -201,7 +196,8 @@ bool RestingBranch::is_new_contact(const Orbit& one, const Orbit& other) const {
 
 void RestingBranch::end(double last, const Orbit& good, double beyond, const std::optional<Orbit>& other, int heading) {
   BranchPoint at = point(last, good);
-  if (is_at_threshold(at.scene, good) || (other && is_at_threshold(scene(beyond), *other))) {
+  if (is_at_threshold(at.scene, good, of_threshold) ||
+      (other && is_at_threshold(scene(beyond), *other, of_threshold))) {
     record_.add(at), record_.note(SpecialKind::rebound_threshold, at);
     return record_.end(at, std::string(name_of(SpecialKind::rebound_threshold)));
   }

@@ -130,7 +130,7 @@ constexpr double of_special = 1e-12;  ///< error over the size, where the place 
 
 CertifiedPoint certified(const BranchPoint& point, const StartProblem& start) {
   constexpr double rounding = 1e-9;  // which decides whether a run's impact rebounds
-  if (branches::impact_without_rebound(point.scene, point.orbit, rounding))
+  if (branches::is_at_threshold(point.scene, point.orbit, rounding))
     return {.status = steady::Status::periodic, .without = Without::law_of_speed};
   const attractors::SectionState state = branches::state_at_phase_zero(point.scene, point.orbit);
   const observables::Extrema::Values range = branches::extrema_as_computed(point.scene, point.orbit);

@@ -73,47 +73,32 @@ Key key_of(Parameter parameter, bool is_si) {
   return key;
 }
 
-/// The tables of restitution by speed, each with the key that it takes the place of.
-constexpr std::string_view loose_walls = "f = 0.3\nnu = 1.3\nloose_mass = 0.05\nloose_gap = 1.9\n",
-                           machine_stops = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\n",
-                           machine_walls =
-                               "mass = 0.25\nstiffness = 800.0\nforce = 4.0\nfrequency = 9.0\n"
-                               "loose_mass = 0.01\nloose_gap = 8e-3\n",
-                           some_speeds = "0: 0.9, 0.5: 0.8, 2: 0.6",
-                           machine_speeds = "0: 0.9, 0.5 m/s: 0.8, 2 m/s: 0.6";
-constexpr Key table_of(std::string_view section, std::string_view name, std::string_view help,
-                       std::string_view restitution, std::string_view beside) {
-  return with(beside, or_as(restitution,
-                            Key{section, name, text, "", section == "machine" ? machine_speeds : some_speeds, help}));
-}
-constexpr std::string_view
-    by_speed =
-        "restitution by impact speed, in place of R: speeds and their R, straight lines between, "
-        "constant beyond",
-    by_wall_speed =
-        "restitution of the loose mass by its speed in the housing, in place of loose_R: speeds "
-        "and their R, straight lines between, constant beyond";
+/// A table of restitution by speed, and the key that it takes the place of.
+struct TableKey {
+  std::string_view name, help, restitution;
+};
 constexpr std::array keys_of_tables{
-    table_of("scene", "R_of_speed", by_speed, "R", "xs = 1.0\n"),
-    table_of("scene", "R_of_speed_lower", "restitution of the lower stop by impact speed, in place of R_lower",
-             "R_lower", "xs = 1.0\n"),
-    table_of("scene", "R_of_speed_upper", "restitution of the upper stop by impact speed, in place of R_upper",
-             "R_upper", "xs = 1.0\n"),
-    table_of("scene", "loose_R_of_speed", by_wall_speed, "loose_R", loose_walls),
-    table_of("scene", "loose_R_of_speed_lower", "restitution of the lower wall by speed, in place of loose_R_lower",
-             "loose_R_lower", loose_walls),
-    table_of("scene", "loose_R_of_speed_upper", "restitution of the upper wall by speed, in place of loose_R_upper",
-             "loose_R_upper", loose_walls),
-    table_of("machine", "R_of_speed", by_speed, "R", machine_stops),
-    table_of("machine", "R_of_speed_lower", "restitution of the lower stop by impact speed, in place of R_lower",
-             "R_lower", machine_stops),
-    table_of("machine", "R_of_speed_upper", "restitution of the upper stop by impact speed, in place of R_upper",
-             "R_upper", machine_stops),
-    table_of("machine", "loose_R_of_speed", by_wall_speed, "loose_R", machine_walls),
-    table_of("machine", "loose_R_of_speed_lower", "restitution of the lower wall by speed, in place of loose_R_lower",
-             "loose_R_lower", machine_walls),
-    table_of("machine", "loose_R_of_speed_upper", "restitution of the upper wall by speed, in place of loose_R_upper",
-             "loose_R_upper", machine_walls)};
+    TableKey{"R_of_speed",
+             "restitution by impact speed, in place of R: speeds and their R, straight lines between, constant beyond",
+             "R"},
+    TableKey{"R_of_speed_lower", "restitution of the lower stop by impact speed, in place of R_lower", "R_lower"},
+    TableKey{"R_of_speed_upper", "restitution of the upper stop by impact speed, in place of R_upper", "R_upper"},
+    TableKey{"loose_R_of_speed",
+             "restitution of the loose mass by its speed in the housing, in place of loose_R: speeds and their R, "
+             "straight lines between, constant beyond",
+             "loose_R"},
+    TableKey{"loose_R_of_speed_lower", "restitution of the lower wall by speed, in place of loose_R_lower",
+             "loose_R_lower"},
+    TableKey{"loose_R_of_speed_upper", "restitution of the upper wall by speed, in place of loose_R_upper",
+             "loose_R_upper"}};
+
+Key key_of(const TableKey& table, Parameter restitution, bool is_si) {
+  const auto& row = restitution.row();
+  Key key{is_si ? "machine" : "scene", table.name, text, "", "0: 0.9, 0.5: 0.8, 2: 0.6", table.help};
+  if (is_si) key.example = "0: 0.9, 0.5 m/s: 0.8, 2 m/s: 0.6";
+  key.other = table.restitution, key.beside = (is_si ? row.in_machine : row.in_scene).beside;
+  return key;
+}
 
 /// The keys along which a motion can be followed: none is the friction of a loose mass.
 std::vector<std::string_view> keys_to_follow() {
@@ -222,8 +207,8 @@ const std::array keys_after_observe{
 /// The key of a parameter, and behind the restitution of a stop its tables by speed.
 void add_scene_key(Parameter parameter, bool is_si, std::vector<Key>& keys) {
   keys.push_back(key_of(parameter, is_si));
-  for (const Key& table : keys_of_tables)
-    if (table.other == parameter.key() && table.section == keys.back().section) keys.push_back(table);
+  for (const TableKey& table : keys_of_tables)
+    if (table.restitution == parameter.key()) keys.push_back(key_of(table, parameter, is_si));
 }
 
 /// The keys of [observe] are those of the observables.

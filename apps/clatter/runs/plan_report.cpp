@@ -121,15 +121,24 @@ std::vector<KeyAndNumber> computed_scene(const point::Problem& problem) {
       {"h", o.damping}, {"f", o.forcing},           {"nu", o.frequency},         {"phase", problem.start.phase},
       {"load", o.load}, {"stiffness", o.stiffness}, {"stop_lower", stops.lower}, {"stop_upper", stops.upper}};
   struct Keys {
-    std::string_view stiffness, damping, R;
+    std::string_view stiffness, damping, R, exponent, reference, below;
   };
-  constexpr Keys of_stops[] = {{"stop_stiffness_lower", "stop_damping_lower", "R_lower"},
-                               {"stop_stiffness_upper", "stop_damping_upper", "R_upper"}},
-                 of_walls[] = {{"loose_wall_stiffness_lower", "loose_wall_damping_lower", "loose_R_lower"},
-                               {"loose_wall_stiffness_upper", "loose_wall_damping_upper", "loose_R_upper"}};
+  constexpr Keys of_stops[] = {{"stop_stiffness_lower", "stop_damping_lower", "R_lower", "R_exponent_lower",
+                                "R_reference_speed_lower", "R_below_lower"},
+                               {"stop_stiffness_upper", "stop_damping_upper", "R_upper", "R_exponent_upper",
+                                "R_reference_speed_upper", "R_below_upper"}},
+                 of_walls[] = {{"loose_wall_stiffness_lower", "loose_wall_damping_lower", "loose_R_lower",
+                                "loose_R_exponent_lower", "loose_R_reference_speed_lower", "loose_R_below_lower"},
+                               {"loose_wall_stiffness_upper", "loose_wall_damping_upper", "loose_R_upper",
+                                "loose_R_exponent_upper", "loose_R_reference_speed_upper", "loose_R_below_upper"}};
+  const auto add_restitution = [&](const Keys& keys, const Restitution<double>& law) {
+    if (law.table == nullptr) scene.push_back({keys.R, law.R});  // a table is as it was given
+    if (law.exponent != 0) scene.insert(scene.end(), {{keys.exponent, law.exponent}, {keys.reference, law.reference}});
+    if (law.below != 0) scene.push_back({keys.below, law.below});
+  };
   const auto add_stop = [&](const Keys& keys, const Stops& of, Side side) {
     const bool lower = side == Side::lower;
-    if (!is_soft(of, side)) return scene.push_back({keys.R, law_of(of, side).R});
+    if (!is_soft(of, side)) return add_restitution(keys, law_of(of, side));
     scene.push_back({keys.stiffness, lower ? of.stiffness_lower : of.stiffness_upper});
     scene.push_back({keys.damping, lower ? of.damping_lower : of.damping_upper});
   };

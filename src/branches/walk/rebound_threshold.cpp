@@ -1,5 +1,6 @@
 #include "branches/walk/rebound_threshold.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace clatter::branches {
@@ -18,10 +19,17 @@ std::optional<double> margin_of(const FollowedScene& scene, const OrbitEvent& ev
 
 }  // namespace
 
-std::optional<std::size_t> impact_without_rebound(const FollowedScene& scene, const Orbit& orbit, double within) {
+std::optional<std::size_t> impact_without_rebound(const FollowedScene& scene, const Orbit& orbit) {
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (const auto margin = margin_of(scene, orbit.events[i]); margin && *margin < within) return i;
+    if (const auto margin = margin_of(scene, orbit.events[i]); margin && *margin < 0) return i;
   return std::nullopt;
+}
+
+bool is_at_threshold(const FollowedScene& scene, const Orbit& orbit, double within) {
+  return std::ranges::any_of(orbit.events, [&](const OrbitEvent& event) {
+    const auto margin = margin_of(scene, event);
+    return margin && std::abs(*margin) < within;
+  });
 }
 
 CurvePoint point_at_threshold(const OrbitEquations& equations, const Walk& walk, const Narrowed& between) {
