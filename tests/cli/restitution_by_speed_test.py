@@ -182,6 +182,16 @@ class Tables(LooseMass):
                 np.testing.assert_array_equal(mine["x"][()], its["x"][()])
 
 
+class Plans(CommandLine):
+    def test_a_machine_is_computed_with_its_law_in_computed_units(self):
+        machine = {"mass": 0.25, "stiffness": 6400.0, "gap": 3e-3, "force": 40.0, "frequency": 25.0, "R": 0.7}
+        law = {"R_exponent": 0.2, "R_reference_speed": "0.5 m/s", "R_below": "1 cm/s"}
+        self.write("m.toml", text_of(machine | law, {}, {"extrema": True}, "machine"))
+        done = self.clatter("plan", "m.toml")
+        for told in ("R_exponent_lower = 0.2", "R_reference_speed_upper = 0.003125", "R_below_lower = 6.25e-05"):
+            self.assertIn(told, done.stdout)  # a unit of time is 1/160 s
+
+
 class Refusals(CommandLine):
     def refused(self, law, words):
         stops = {key: value for key, value in DRIVEN.items() if key != "R_of_speed"}
@@ -241,6 +251,19 @@ class Branches(LooseMass):
         self.assertEqual(ends.sum(), 2)
         np.testing.assert_allclose(found["special_impact_speed"][ends], 0.2, rtol=1e-10)
         self.assertGreaterEqual(found["impact_speed"].min(), 0.2 * (1 - 1e-10))
+
+    def test_motion_that_rests_ends_at_the_threshold_too_and_has_certificates_before(self):
+        scene = {"h": 0.13, "f": -1.0, "nu": 0.48, "stiffness": 0.0, "load": -0.894, "stop_lower": -1.244}
+        scene |= {"x0": -1.244, "v0": -1.05, "R_lower": 1.0, "R_below_lower": 0.157}
+        found = self.followed(scene, [0.34, 0.67])
+        self.assertIn(b"rebound threshold", found["special_kind"])
+        self.assertTrue(all(b"*" in word for word in found["word"]))
+        command = [CLATTER, "certify", self.scratch / "b.h5", "-o", self.scratch / "b.jsonl"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=LONGEST)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("not reproduced", done.stderr)
+        claimed = (self.scratch / "b.jsonl").read_text(encoding="utf-8").count('"claim":"periodic"')
+        self.assertGreater(claimed, 0.7 * len(found["nu"]))  # but for the ends
 
     def test_a_branch_goes_on_past_the_corners_of_a_table(self):
         table = "0.1: 0.9, 0.6: 0.88, 1.3: 0.62, 2.0: 0.6"
