@@ -201,9 +201,9 @@ class Machine {
 
   // One step.
 
-  /// One Taylor step in the present mode, or less if a guard falls before.
+  /// One Taylor step in the present mode, to a knot of the force at most, or less if a guard falls before.
   void go() {
-    const Quad step = std::min(end_ - m_.time, m_.step_of(mode_));
+    const Quad step = std::min({end_ - m_.time, m_.periodic.knot() - m_.time, m_.step_of(mode_)});
     const Series x = m_.main_series(mode_, step), r = m_.loose_series(mode_, x, step);
     const std::vector<Guard> rows = m_.guards(mode_, x, r, step);
     std::vector<std::optional<Quad>> falls;
@@ -231,8 +231,8 @@ class Machine {
   void pass(const Series& x, const Series& r, Quad step, Quad u) {
     if (u == 0) return;
     const Quad x_before = m_.x(), x_anchor = m_.anchor;
-    const double h = m_.scene.damping;
-    if (h != 0) run_.damped += 2 * h * integral_of_square(slope_of(x), u) / to_long(step);
+    if (const double h = m_.scene.damping; h != 0)
+      run_.damped += 2 * h * integral_of_square(slope_of(x), u) / to_long(step);
     const auto [q, slope] = jet(x, u);
     m_.q = q, m_.v = mode_.held ? 0 : slope / step;
     if (!mode_.takes_along() && m_.has_loose) {
@@ -243,7 +243,9 @@ class Machine {
     take_turns(run_.of_x, x_anchor, x, u), take_turns(run_.of_z, m_.wall_anchor, r, u);
     if (m_.has_loose) take_turns(run_.of_y, x_anchor + m_.wall_anchor, sum_of(x, r), u);
     run_.rubbed += m_.scene.friction * to_long(size_of(m_.x() - x_before));
-    m_.time = u == 1 && step == end_ - m_.time ? end_ : m_.time + u * step;
+    const Quad knot = m_.periodic.knot();
+    m_.time = m_.periodic.reached(u == 1 && step == end_ - m_.time ? end_ : m_.time + u * step);
+    is_fresh_ = is_fresh_ || m_.periodic.knot() != knot;
   }
   /// Takes the values of a quantity at all zeros of its slope before an end.
   static void take_turns(Range& range, Quad anchor, const Series& p, Quad end) {
@@ -265,9 +267,7 @@ class Machine {
     seen.high = std::max({seen.high, size_of(guard.p[0]), size_of(value)});
     seen.fast = std::max({seen.fast, size_of(guard.p[1] / step), size_of(slope / step)});
     if (goes_on && seen.last_slope < 0 && guard.p[1] > 0) note(guard.p[0], seen.high);
-    if (guard.p[1] < 0 && slope > 0) {
-      note(jet(guard.p, refined(negative(slope_of(guard.p)), 0, u)).first, seen.high);
-    }
+    if (guard.p[1] < 0 && slope > 0) note(jet(guard.p, refined(negative(slope_of(guard.p)), 0, u)).first, seen.high);
     seen.last_slope = slope, seen.until = m_.time + u * step;
   }
   /// What happens when a guard has fallen to 0.
@@ -334,7 +334,7 @@ class Machine {
   Quad fastest_ = 0;
   Mode mode_{};
   int held_on_ = 0;
-  bool is_fresh_ = false;    ///< something has just come to rest
+  bool is_fresh_ = false;    ///< something has just come to rest, or the force has just jumped or bent
   bool is_turning_ = false;  ///< the velocity of the main mass has just fallen to 0
   std::array<Watch, 24> watches_{};
   MachineRun run_{};

@@ -21,14 +21,27 @@ struct Law {
   double unit = 1;                     ///< of their speeds
 };
 
+/// The shape s of the force over the angle theta, of period 2 pi.
+enum class ForceShape : std::uint8_t {
+  sine,
+  square,     ///< 1 on the first `duty` of the period, else -1
+  pulse,      ///< 1 there, else 0
+  triangle,   ///< straight lines between the zeros and peaks of the sine
+  trapezoid,  ///< straight from -1 to 1 within `rise` of the period, around theta = 0, and back around theta = pi
+  sawtooth,   ///< theta/pi - 1, from -1 to 1
+  half_sine,  ///< sin(theta/(2 duty)) on the first `duty` of the period, else 0
+};
+
 /// A main mass, 1, with friction, between stops, that may carry a loose mass eps between two walls:
-///   x'' + 2h x' + k x + mu sgn x' = f sin(nu tau + phase) + load + soft stops + F sgn z',
+///   x'' + 2h x' + k x + mu sgn x' = f s(nu tau + phase) + load + soft stops + F sgn z',
 ///   y'' = loose_load - F sgn z'/eps, z = y - x.
 /// At z' = 0 friction on the housing holds both together up to a static level.
 /// A soft stop pushes with max(0, kappa depth + 2 zeta sqrt(kappa) depth'), a soft wall both masses apart with max(0,
 /// kappa depth + 2 zeta sqrt(kappa eps/(1 + eps)) depth'); one of infinite kappa is rigid.
 struct MachineScene {
   double damping = 0, stiffness = 1, forcing = 0, frequency = 1, phase = 0, load = 0;
+  ForceShape shape = ForceShape::sine;
+  double duty = 0.5, rise = 0.25;            ///< of the shapes that have them: 0 < duty <= 1, 0 < rise <= 1/2
   double friction = 0, static_friction = 0;  ///< levels; the static one is no less than the other
   double lower = -no_stop, upper = no_stop;  ///< places of the stops; infinite: none
   double restitution_lower = 1, restitution_upper = 1;

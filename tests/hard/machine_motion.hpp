@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hard/machine.hpp"
+#include "hard/machine_force.hpp"
 #include "hard/machine_series.hpp"
 
 namespace clatter::hard::machine {
@@ -108,7 +109,7 @@ struct Mode {
 
 /// A scene, the state of its masses at an instant, and what becomes of it in a mode.
 struct Motion {
-  explicit Motion(const MachineScene& s) : scene(s), anchor(s.x), v(s.v), wall_anchor(s.z), w(s.w) {
+  explicit Motion(const MachineScene& s) : scene(s), periodic(s), anchor(s.x), v(s.v), wall_anchor(s.z), w(s.w) {
     mus = std::max(scene.static_friction, scene.friction);
     loose_mus = std::max(scene.loose_static, scene.loose_friction);
     stops = {contact(scene.lower, {scene.restitution_lower, scene.law_lower}, scene.kappa_lower, scene.zeta_lower),
@@ -154,14 +155,7 @@ struct Motion {
 
   /// All that doesn't depend on the motion within a step.
   [[nodiscard]] Series push(const Mode& mode, Quad step) const {
-    const Quad angle = Quad(scene.frequency) * time + scene.phase, sine = sinq(angle), cosine = cosq(angle);
-    const std::array<Quad, 4> derivatives{sine, cosine, -sine, -cosine};
-    Series force{};
-    Quad factor = scene.forcing;  // times (nu step)^n / n!
-    for (std::size_t n = 0; n < terms && factor != 0; ++n) {
-      force[n] = factor * derivatives[n % 4];
-      factor *= scene.frequency * step / number(n + 1);
-    }
+    Series force = periodic.series(time, step);
     force[0] += constant_push(mode);
     return force;
   }
@@ -188,20 +182,19 @@ struct Motion {
   }
   /// Of the main mass, alone.
   [[nodiscard]] Quad acceleration(int slip, int slide) const {
-    const Quad forced = scene.forcing * sinq(Quad(scene.frequency) * time + scene.phase);
-    return forced + constant_push({false, slip, 0, false, slide}) - stiffness() * q - twice_damping() * v +
+    return periodic.at(time) + constant_push({false, slip, 0, false, slide}) - stiffness() * q - twice_damping() * v +
            wall_push(r, w);
   }
 
   // The motion in a mode.
 
+  /// How long its Taylor series hold enough digits, of the force as it is until the next knot.
   [[nodiscard]] Quad step_of(const Mode& mode) const {
-    const Quad forced = scene.forcing != 0 ? scene.frequency : 0;
     const Quad own = mode.held ? Quad(0) : sqrtq(size_of(stiffness())) + twice_damping();
     const Quad reduced = Quad(scene.loose_mass) / (1 + Quad(scene.loose_mass));
     const Quad coupled =
         is_coupled(mode) ? sqrtq(wall(wall_around).kappa / reduced) + wall(wall_around).damper / reduced : Quad(0);
-    return Quad(scene.step) / std::max({forced, own + coupled, Quad(1e-3)});
+    return Quad(scene.step) / std::max({periodic.rate(), own + coupled, Quad(1e-3)});
   }
   [[nodiscard]] Series main_series(const Mode& mode, Quad step) const {
     Series x{q, v * step}, way{r, w * step};
@@ -317,6 +310,7 @@ struct Motion {
   // The state.
 
   MachineScene scene;
+  PeriodicForce periodic;
   Quad mus = 0, loose_mus = 0, time = 0;
   std::array<Contact, 2> stops{}, walls{};
   bool has_loose = false;

@@ -15,6 +15,8 @@ extern "C" {
 [[nodiscard]] Quad cosq(Quad) noexcept;
 [[nodiscard]] Quad sqrtq(Quad) noexcept;
 [[nodiscard]] Quad powq(Quad, Quad) noexcept;
+[[nodiscard]] Quad acosq(Quad) noexcept;
+[[nodiscard]] Quad floorq(Quad) noexcept;
 }
 
 // Polynomials of a step's part u, 0 ... 1.
