@@ -51,6 +51,11 @@ draw bouncing_ball --only section_v --size 5x3.5
   --title 'Impacts of a ball on a shaken table' --format svg -o "$out"
 draw gear_rattle --only x_min,x_max,impact_power --size 7x3.5
 draw harvester --only impact_power --size 5x3.8
+for shape in square sine; do
+  "$clatter" run "$source_dir/configs/square_drive.toml" --set machine.force_shape=$shape -o "$work/$shape.h5" -q
+done
+"$source_dir/scripts/plot.py" "$work"/{square,sine}.h5 --only impact_speed --size 6x3.8 --format svg -o "$work"
+mv "$work/square+sine.svg" "$out/square_drive.svg"
 for R in 0.92 0.75; do
   "$clatter" run "$source_dir/configs/measured_stop.toml" --set machine.R=$R -o "$work/$R.h5" -q
 done

@@ -217,6 +217,8 @@ CertifiedPoint certified_period(const Problem& problem, const PointResult& resul
   CertifiedPoint point{.status = result.status};
   if (problem.oscillator.forcing == 0)
     point.without = Without::force;
+  else if (!problem.oscillator.shape.is_sine())
+    point.without = Without::force_shape;
   else
     certify_periodic(problem, result, point);
   return with_claimed_chatters(std::move(point));
@@ -227,8 +229,8 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
   CertifiedPoint point{.status = known.status};
   if (known.status == Status::grazing) point.without = Without::graze;
   if (known.status != Status::periodic && known.status != Status::transient) return point;
-  if (has_soft_wall(problem.loose)) {
-    point.without = Without::soft_wall;
+  if (has_soft_wall(problem.loose) || !problem.oscillator.shape.is_sine()) {
+    point.without = has_soft_wall(problem.loose) ? Without::soft_wall : Without::force_shape;
     return point;
   }
   const bool is_steady = known.status == Status::periodic;

@@ -7,6 +7,7 @@
 #include "config/config.hpp"
 #include "config/config_text.hpp"
 #include "config/consistency.hpp"
+#include "config/force_shape.hpp"
 #include "config/parsed_config.hpp"
 #include "config/restitution.hpp"
 #include "config/settings.hpp"
@@ -97,7 +98,7 @@ sweep::GivenProblem given_problem(const Settings& settings) {
     if (const double* const value = std::get_if<double>(&given.value);
         value != nullptr && given.key->section == settings.scene_section)
       set(problem, parameter_of(given), *value);
-  set_speed_tables(settings, problem);
+  set_speed_tables(settings, problem), set_force_shape(settings, problem);
   return problem;
 }
 
@@ -253,6 +254,7 @@ Config config_of(ParsedConfig parsed) {
   check_housing(settings, groups);
   check_soft_walls(settings, groups);
   check_restitutions(settings, groups);
+  check_force_shape(settings);
   check_stops_and_start(settings, groups);
   check_soft_stops(settings, groups);
   check_sensitivity(settings);

@@ -251,7 +251,7 @@ Value convert(const Key& key, const ParsedValue& written, bool is_si) {
 }
 
 AxisValues convert_axis(const Key& key, const ParsedValue& written) {
-  if (key.kind == Kind::text)
+  if (key.kind != Kind::number)
     fail(written.location, std::string(key.name) + " is a text, and an axis has numbers; give it in " +
                                (key.section == "machine" ? "[machine]" : "[scene]") + ", one run for each");
   AxisValues axis = unchecked_axis(key, written);

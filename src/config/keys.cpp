@@ -100,12 +100,24 @@ Key key_of(const TableKey& table, Parameter restitution, bool is_si) {
   return key;
 }
 
+/// The shape of the force.
+Key shape_key(bool is_si) {
+  Key key = one_of(force_shapes,
+                   Key{is_si ? "machine" : "scene", "force_shape", choice, "sine", "square",
+                       "course of the force over its period. square: f, then -f; pulse: f, then 0; triangle: straight "
+                       "lines between the zeros and peaks of the sine; trapezoid: steeper ones, cut at the peaks; "
+                       "sawtooth: a straight line from -f to f; half-sine: one half wave, then 0"});
+  key.beside = (is_si ? Parameter("phase").row().in_machine : Parameter("phase").row().in_scene).beside;
+  return key;
+}
+
 /// The keys along which a motion can be followed: none is the friction of a loose mass.
 std::vector<std::string_view> keys_to_follow() {
   std::vector<std::string_view> keys;
   for (const Parameter parameter : all_parameters) {
     const bool is_its_friction = parameter.is_loose() && parameter.role() == Role::friction;
-    if (parameter.role() != Role::start && !parameter.row().is_with_unit && !is_its_friction)
+    if (parameter.role() != Role::start && parameter.role() != Role::force_shape && !parameter.row().is_with_unit &&
+        !is_its_friction)
       keys.push_back(parameter.key());
   }
   return keys;
@@ -204,8 +216,10 @@ const std::array keys_after_observe{
         AllowedRange{.low = 0, .high = 9}},
 };
 
-/// The key of a parameter, and behind the restitution of a stop its tables by speed.
+/// The key of a parameter, behind the restitution of a stop its tables by speed, and before the shares of the parts of
+/// a force its shape.
 void add_scene_key(Parameter parameter, bool is_si, std::vector<Key>& keys) {
+  if (parameter == "force_duty") keys.push_back(shape_key(is_si));
   keys.push_back(key_of(parameter, is_si));
   for (const TableKey& table : keys_of_tables)
     if (table.restitution == parameter.key()) keys.push_back(key_of(table, parameter, is_si));
@@ -271,7 +285,7 @@ const Key* find_key(std::string_view section, std::string_view name) {
 std::vector<std::string_view> key_names(std::string_view section) {
   std::vector<std::string_view> names_of_section;
   for (const Key& key : all_keys) {
-    const bool is_no_axis = section == "sweep" && describes_scene(key.section) && key.kind == text;
+    const bool is_no_axis = section == "sweep" && describes_scene(key.section) && key.kind != number;
     if (find_key(section, key.name) == &key && !is_no_axis) names_of_section.push_back(key.name);
   }
   return names_of_section;

@@ -23,8 +23,8 @@ std::vector<std::string_view> keys_of_motion(const Settings& settings) {
   const bool is_housed = has_loose_mass(settings);
   for (const Parameter parameter : all_parameters) {
     const bool is_its = is_housed ? is_of_housed(settings, parameter) : !parameter.is_loose();
-    if (parameter.is_in(settings.scene_section) && parameter.role() != Role::start && is_its &&
-        !parameter.row().is_with_unit)
+    const bool is_of_motion = parameter.role() != Role::start && parameter.role() != Role::force_shape;
+    if (parameter.is_in(settings.scene_section) && is_of_motion && is_its && !parameter.row().is_with_unit)
       names.push_back(parameter.key());
   }
   return names;
@@ -38,6 +38,9 @@ void check_name(const Settings& settings, const Setting& names, const std::strin
   const std::optional<Parameter> parameter = Parameter::of(name);
   if (parameter && parameter->role() == Role::start)
     fail(names.location, message + ", a start, which steady motion doesn't depend on; leave it out");
+  if (parameter && parameter->role() == Role::force_shape)
+    fail(names.location,
+         message + ", of a force in pieces, by which steady motion has no derivative so far; leave it out");
   if (parameter && has_loose_mass(settings) && !is_of_housed(settings, *parameter))
     fail(names.location, message + ", which conflicts with 'loose_mass'; leave it out");
   if (parameter && !counterpart_of(name).empty())

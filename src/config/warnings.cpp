@@ -8,6 +8,7 @@
 
 #include "config/config.hpp"
 #include "config/consistency.hpp"
+#include "config/force_shape.hpp"
 #include "config/restitution.hpp"
 
 namespace clatter::config {
@@ -155,9 +156,12 @@ bool zero(double value) { return value == 0; }
 bool unshaken(const Settings& settings) {
   return everywhere(settings, "stop_amplitude", zero) && everywhere(settings, "base_amplitude", zero);
 }
-bool unforced(const Settings& settings) {
-  return everywhere(settings, "f", zero) && everywhere(settings, "force", zero) && unshaken(settings);
+bool undriven(const Settings& settings) {
+  return everywhere(settings, "f", zero) && everywhere(settings, "force", zero);
 }
+bool unforced(const Settings& settings) { return undriven(settings) && unshaken(settings); }
+bool has_no_duty(const Settings& settings) { return !has_duty(waveform_of(settings)); }
+bool has_no_rise(const Settings& settings) { return waveform_of(settings) != Waveform::trapezoid; }
 /// Whether nothing is observed that frame decides.
 bool frameless(const Settings& settings) {
   return no_harmonics(settings) && no_section(settings) && !settings.flag("observe", "extrema") &&
@@ -244,6 +248,12 @@ constexpr Rule rules[] = {
     {"scene", "nu", unforced, no_force, or_force},
     {"machine", "frequency", unforced, no_force, "give a force, stop_amplitude or base_amplitude"},
     {"scene", "phase", unforced, no_force, or_force},
+    {"scene", "force_shape", undriven, no_force, or_force},
+    {"scene", "force_duty", undriven, no_force, or_force},
+    {"scene", "force_rise", undriven, no_force, or_force},
+    {"scene", "force_duty", has_no_duty, "beside this shape of the force",
+     "write force_shape = \"square\", \"pulse\" or \"half-sine\""},
+    {"scene", "force_rise", has_no_rise, "beside this shape of the force", "write force_shape = \"trapezoid\""},
     {"scene", "stop_phase", unshaken, "without stop_amplitude or base_amplitude", "give one of them"},
     {"scene", "stop_stiffness", no_stops, "without stops", or_stops},
     {"scene", "stop_stiffness_lower", no_lower, "without a lower stop", "give stop_lower"},

@@ -57,7 +57,7 @@ bool yields(const Scene& scene, Side side) {
 bool accepts(const Scene& scene) {
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
-  const bool moves = o.forcing != 0 && !has_friction(scene.friction) && o.damping >= 0 &&
+  const bool moves = o.forcing != 0 && o.shape.is_sine() && !has_friction(scene.friction) && o.damping >= 0 &&
                      o.damping <= 0.9 * rate_of(o) && holds(scene) && forcing_of(o) == Forcing::regular;
   const double amplitude = steady_response(o).amplitude, room = stops.upper - stops.lower;
   const auto bounces_on = [](const Restitution<double>& law) { return law.is_constant() && law.R >= 1.0 / 16; };

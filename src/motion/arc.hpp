@@ -34,7 +34,7 @@ class Arc {
 
   /// The forcing phase a time s after the start.
   [[nodiscard]] SineCosine<Number> phase_after(const Number& s) const {
-    return advanced(start_, turn_by(Number(constants_->nu * s))).phase;
+    return advanced(start_, constants_->turn(s)).phase;
   }
 
   /// Motion a step of any length after `m`, an instant of this arc, in closed form; inlined, so that a caller that
@@ -72,7 +72,7 @@ class Arc {
   struct AdvancedPhase {
     SineCosine<Number> phase, change;
   };
-  [[nodiscard]] static AdvancedPhase advanced(const Motion<Number>& m, const Turn<Number>& turn);
+  [[nodiscard]] AdvancedPhase advanced(const Motion<Number>& m, const Turn<Number>& turn) const;
 
   const ArcConstants<Number, E>* constants_;
   Number anchor_;
@@ -80,9 +80,9 @@ class Arc {
 };
 
 template <class Number, Effects E>
-auto Arc<Number, E>::advanced(const Motion<Number>& m, const Turn<Number>& turn) -> AdvancedPhase {
+auto Arc<Number, E>::advanced(const Motion<Number>& m, const Turn<Number>& turn) const -> AdvancedPhase {
   if constexpr (E.forcing == Forcing::none) return {{m.sine, m.cosine}, {Number(0), Number(0)}};
-  const SineCosine<Number> change = change_by(turn, {m.sine, m.cosine});
+  const SineCosine<Number> change = constants_->change(turn, {m.sine, m.cosine});
   return {{m.sine + change.sine, m.cosine + change.cosine}, change};
 }
 
@@ -96,7 +96,7 @@ Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>
   Number offset =
       p.a_minus_one * m.free_x + p.b * m.free_v + constants_->response_displacement(change.sine, change.cosine);
   auto [free_x, free_v] = constants_->advanced(p, {m.free_x, m.free_v});
-  if constexpr (E.forcing == Forcing::secular) {
+  if (constants_->forms_together()) {
     const Number response_x = m.cosine * step.displacement.cosine + m.sine * step.displacement.sine;
     const Number response_v = m.cosine * step.velocity.cosine + m.sine * step.velocity.sine;
     offset += constants_->f * response_x, free_x += constants_->f * response_x, free_v += constants_->f * response_v;
@@ -112,7 +112,7 @@ Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>
   const Number x = rises ? anchor_ + offset : constants_->equilibrium + forced_x + free_x;
   const Number v = constants_->response_velocity(phase.sine, phase.cosine) + free_v;
   const Number a =
-      E.forcing == Forcing::secular
+      constants_->forms_together()
           ? constants_->acceleration(rises ? constants_->from_equilibrium(x, anchor_, offset) : free_x, v, phase.sine)
           : free_acceleration(p, m) - constants_->nu * constants_->nu * forced_x;
   Number fast_x = 0;
@@ -132,7 +132,8 @@ auto Arc<Number, E>::series(const Motion<Number>& m, const Number& d) const -> s
     if constexpr (E.forcing != Forcing::none) {
       force *= constants_->nu * d / static_cast<double>(k);
       sum += force * next;
-      const Number turn = -drive;
+      Number turn = -drive;
+      if constexpr (E.stiffness) turn = constants_->curl() * turn;
       drive = next, next = turn;
     }
     t[k + 2] = sum / static_cast<double>((k + 1) * (k + 2));
@@ -159,7 +160,7 @@ Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) co
     offset += t[k];
     if (k >= 2) gain += static_cast<double>(k) * t[k];
   }
-  const SineCosine<Number> phase = advanced(m, turn_by(Number(constants_->nu * d))).phase;
+  const SineCosine<Number> phase = advanced(m, constants_->turn(d)).phase;
   const Number x = m.x + offset, v = m.v + gain / d;
   offset += m.offset;
   const Number a = constants_->acceleration(constants_->from_equilibrium(x, anchor_, offset), v, phase.sine);

@@ -40,10 +40,15 @@ template <class Number, Effects E, std::size_t count>
   using std::abs, detail::derived;
   const auto i = static_cast<std::size_t>(derivative);
   if constexpr (E.stiffness && E.damping == Damping::heavy)
-    if (!(c.k > 0)) return detail::unsprung_sixth_bound(c, m, span, derivative);
+    if (!(c.k > 0))
+      return detail::unsprung_sixth_bound(c, m, span, derivative) +
+             times_sixth_power(c.force_in_pieces(bounds, m, span, derivative), span);
   Number energy_norm = abs(m.free_x) + abs(m.free_v);
   if constexpr (E.stiffness) energy_norm = c.natural * abs(m.free_x) + abs(m.free_v);
-  if constexpr (E.forcing == Forcing::secular) energy_norm += abs(c.f) * span;
+  if (c.is_in_pieces())
+    energy_norm += abs(c.f) * c.most_of_shape(m, span).sine * span;
+  else if constexpr (E.forcing == Forcing::secular)
+    energy_norm += abs(c.f) * span;
   Number bound = times_sixth_power(Number(bounds.free[i] * energy_norm), span);
   if constexpr (E.damping == Damping::heavy) {
     const Number slow_part = derived(Number(abs(m.free_x - m.fast_x)), c.slow, derivative),
@@ -54,7 +59,10 @@ template <class Number, Effects E, std::size_t count>
   }
   if constexpr (E.forcing == Forcing::regular)
     bound += times_sixth_power(derived(c.response.amplitude, c.nu, derivative), Number(c.nu * span));
-  if constexpr (E.forcing == Forcing::secular) bound += times_sixth_power(bounds.forced[i], span);
+  if (c.is_in_pieces())
+    bound += times_sixth_power(c.force_in_pieces(bounds, m, span, derivative), span);
+  else if constexpr (E.forcing == Forcing::secular)
+    bound += times_sixth_power(bounds.forced[i], span);
   return bound;
 }
 template <class Number, Effects E>
@@ -69,11 +77,12 @@ template <class Number, Effects E>
 [[nodiscard]] Number reach(const ArcConstants<Number, E>& c, const Motion<Number>& m, const Number& span) {
   using std::abs, std::exp;
   Number bound = c.response.amplitude + norm(m.free_x, m.free_v);
-  if constexpr (E.forcing == Forcing::secular) bound += abs(c.f) * span;
+  if (c.forms_together()) bound += abs(c.f) * span;
   if constexpr (E.stiffness) {
     Number free = c.k > 0 ? norm(m.free_x, Number(m.free_v / c.natural))
                           : Number((abs(m.free_x) + abs(m.free_v) * span) * exp(-c.slow * span));
-    if constexpr (E.forcing == Forcing::secular) free += abs(c.f) * span / c.natural;
+    if (c.forms_together())
+      free += abs(c.f) * span * (c.k > 0 ? Number(1 / c.natural) : Number(span * exp(-c.slow * span)));
     bound = c.response.amplitude + free + abs(c.unbalanced) * span * span / 2;
   }
   return bound * (1 + 16 * epsilon<Number>());

@@ -8,10 +8,12 @@
 #include "motion/divided_exponentials.hpp"
 #include "motion/equation_of_motion.hpp"
 #include "motion/propagation.hpp"
+#include "motion/ramp.hpp"
 #include "motion/smooth_propagator.hpp"
 #include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
 #include "scene/effects.hpp"
+#include "scene/force_shape.hpp"
 #include "scene/oscillator.hpp"
 #include "scene/response.hpp"
 
@@ -29,12 +31,13 @@ class ArcConstants {
   template <class Other = double>
   explicit ArcConstants(const BasicOscillator<Other>& oscillator)
       : ArcConstants(Coefficients{}, Number(oscillator.damping), Number(oscillator.forcing),
-                     counting_frequency_of(oscillator), Number(oscillator.load), Number(oscillator.stiffness)) {}
+                     counting_frequency_of(oscillator), Number(oscillator.load), Number(oscillator.stiffness),
+                     with_numbers<Number>(oscillator.shape)) {}
 
   /// From the coefficients of eq. 3, which may be of a type that carries derivatives.
   [[nodiscard]] static ArcConstants of(const Number& h, const Number& f, const Number& nu, const Number& load,
-                                       const Number& k = Number(1)) {
-    return {Coefficients{}, h, f, nu, load, k};
+                                       const Number& k = Number(1), const BasicForceShape<Number>& shape = {}) {
+    return {Coefficients{}, h, f, nu, load, k, shape};
   }
 
   /// Of motion in contact with a soft stop (eq. 51). The equilibrium counts from the stop, or its digits would be lost
@@ -42,8 +45,8 @@ class ArcConstants {
   template <Effects Free>
   [[nodiscard]] static ArcConstants in_contact(const ArcConstants<Number, Free>& free,
                                                const SoftStop<Number>& stop) requires(E.stiffness) {
-    ArcConstants pressed =
-        of(free.h + stop.damping, free.f, free.nu, free.load + stop.stiffness * stop.position, free.k + stop.stiffness);
+    ArcConstants pressed = of(free.h + stop.damping, free.f, free.nu, free.load + stop.stiffness * stop.position,
+                              free.k + stop.stiffness, free.shape);
     pressed.stop = stop, pressed.friction = free.friction, pressed.carried = free.carried;
     pressed.rubbing = free.rubbing;
     if (pressed.natural > 0) {
@@ -60,6 +63,62 @@ class ArcConstants {
   [[nodiscard]] FreeMotion<Number> advanced(const Propagator<Number>& p, const FreeMotion<Number>& from) const {
     if constexpr (E.stiffness) return {mul_add(p.a, from.x, p.b * from.v), mul_sub(p.c, from.v, k * p.b * from.x)};
     return p.advance(from);
+  }
+
+  /// Whether the force is in pieces. Then the phase of a motion, its sine and cosine, stands for s and ds/dtheta.
+  [[nodiscard]] bool is_in_pieces() const {
+    if constexpr (E.stiffness && E.forcing != Forcing::none) return !shape.is_sine();
+    return false;
+  }
+  /// Whether arcs form response and transient together: at resonance, and in pieces of a force.
+  [[nodiscard]] bool forms_together() const { return E.forcing == Forcing::secular || is_in_pieces(); }
+
+  /// w^2 of the shape of the force: its second derivative by the phase is -w^2 times itself.
+  [[nodiscard]] Number curl() const { return swing * swing; }
+  /// Turn of the phase by a time s, within a piece.
+  [[nodiscard]] Turn<Number> turn(const Number& s) const {
+    if (!is_in_pieces()) return turn_by(Number(nu * s));
+    if (swing == 0) return {nu * s, Number(0)};
+    const Turn<Number> by_swing = turn_by(Number(swing * nu * s));
+    return {by_swing.sine / swing, by_swing.cosine_minus_one};
+  }
+  /// Change of the phase by a turn.
+  [[nodiscard]] SineCosine<Number> change(const Turn<Number>& turn, const SineCosine<Number>& from) const {
+    SineCosine<Number> change = change_by(turn, from);
+    if (is_in_pieces()) change.cosine = mul_sub(from.cosine, turn.cosine_minus_one, curl() * from.sine * turn.sine);
+    return change;
+  }
+  /// The phase a time s after another one.
+  [[nodiscard]] SineCosine<Number> phase_after(const SineCosine<Number>& from, const Number& s) const {
+    const SineCosine<Number> by = change(turn(s), from);
+    return {from.sine + by.sine, from.cosine + by.cosine};
+  }
+  /// The phase, from turns.
+  [[nodiscard]] SineCosine<Number> phase_at(const Number& turns) const {
+    return is_in_pieces() ? shape_at(shape, turns) : sine_cosine_of_turns(turns);
+  }
+  /// Whether a motion is at a jump of the force, whose instant depends on nothing.
+  [[nodiscard]] bool is_after_jump(const Motion<Number>& m) const {
+    if (!is_in_pieces()) return false;
+    return m.cosine == 0 || (shape.waveform == Waveform::sawtooth && m.sine == -1);
+  }
+  /// Largest |ds/dtheta| of the force.
+  [[nodiscard]] Number steepest() const { return is_in_pieces() ? steepest_of(shape) : Number(1); }
+  /// Bounds of s and ds/dtheta from `m` on for a time `span` within a piece: 0 where there is no force.
+  [[nodiscard]] SineCosine<Number> most_of_shape(const Motion<Number>& m, const Number& span) const {
+    using std::abs;
+    if (swing == 0) return {abs(m.sine) + abs(m.cosine) * nu * span, abs(m.cosine)};
+    const Number size = norm(m.sine, Number(m.cosine / swing));
+    return {size, swing * size};
+  }
+  /// Bound of the force's part of a derivative that is bounded, likewise.
+  template <std::size_t count>
+  [[nodiscard]] Number force_in_pieces(const DerivativeBounds<Number, count>& bounds, const Motion<Number>& m,
+                                       const Number& span, int derivative) const {
+    if (!is_in_pieces()) return Number(0);
+    const auto i = static_cast<std::size_t>(derivative);
+    const auto [s, slope] = most_of_shape(m, span);
+    return bounds.by_value[i] * s + bounds.by_slope[i] * slope;
   }
 
   /// All coefficients of a step by a time s >= 0 (`Arc::moved`).
@@ -100,7 +159,7 @@ class ArcConstants {
 
   /// Eq. 3, for displacements from the load's equilibrium.
   [[nodiscard]] Equation equation() const {
-    if constexpr (E.stiffness) return {2 * h, f, nu, k, unbalanced};
+    if constexpr (E.stiffness) return {2 * h, f, nu, k, unbalanced, curl()};
     return {2 * h, f, nu};
   }
   [[nodiscard]] Number acceleration(const Number& displacement, const Number& v, const Number& sine) const {
@@ -135,19 +194,21 @@ class ArcConstants {
   Number unbalanced;           ///< the load, if no spring balances it, else 0
   Number origin{}, balance{};  ///< the equilibrium is their sum; in contact with a soft stop the first is its position
   SoftStop<Number> stop{};     ///< the one in contact; side none: none is
-  Number natural;              ///< |k|^(1/2)
-  Number root;                 ///< lambda = |k - h^2|^(1/2)
-  Number slow, fast;           ///< decay rates of heavy damping; slow < 0 with an unstable spring
-  Response<Number> response;   ///< eq. 6; 0 if arcs form it together with the free motion (secular)
-  Number detuning;             ///< nu - lambda, without cancellation
-  Number rate;                 ///< the fastest of the motion's frequencies and decay rates
-  Number period;               ///< of the force; without forcing 2 pi
+  BasicForceShape<Number> shape{};  ///< of the force
+  Number swing{1};                  ///< w of that
+  Number natural;                   ///< |k|^(1/2)
+  Number root;                      ///< lambda = |k - h^2|^(1/2)
+  Number slow, fast;                ///< decay rates of heavy damping; slow < 0 with an unstable spring
+  Response<Number> response;        ///< eq. 6; 0 if arcs form it together with the free motion (secular)
+  Number detuning;                  ///< nu - lambda, without cancellation
+  Number rate;                      ///< the fastest of the motion's frequencies and decay rates
+  Number period;                    ///< of the force; without forcing 2 pi
   DerivativeBounds<Number> derivative_bounds;
 
  private:
   struct Coefficients {};  ///< tells the numbers of eq. 3 from those of an oscillator in braces
   ArcConstants(Coefficients, const Number& damping, const Number& forcing, const Number& frequency,
-               const Number& constant_force, const Number& stiffness);
+               const Number& constant_force, const Number& stiffness, const BasicForceShape<Number>& force_shape);
   /// The period of `counting_frequency`, to the digits of the number type.
   template <class Other>
   [[nodiscard]] static Number counting_frequency_of(const BasicOscillator<Other>& oscillator) {
@@ -160,16 +221,33 @@ class ArcConstants {
   [[nodiscard]] Number short_a_minus_one(const Number& s) const;
   [[nodiscard]] bool is_short(const Number& s) const;
   [[nodiscard]] Number pulled(const Number& s) const;
-  void respond_from_rest(const Number& s, Step<Number>& step) const;
-  void respond_away_from_resonance(Step<Number>& step) const;
+  /// A frequency, its distance from lambda, and the turn of its phase in a step.
+  struct Beat {
+    Number frequency, detuning;
+    Turn<Number> turn;
+  };
+  void respond_from_rest(const Number& s, const Beat& beat, Step<Number>& step) const;
+  void respond_away_from_resonance(const Beat& beat, Step<Number>& step) const;
+  void respond_in_piece(const Number& s, Step<Number>& step) const;
+  [[nodiscard]] Ramp<Number> ramp(const Number& s, const Propagator<Number>& free) const;
 
   Number coarse_root_{}, spare_root_{};  ///< light damping: root is their difference; the first is 1 if h < 1/2
 };
 
 template <class Number, Effects E>
 ArcConstants<Number, E>::ArcConstants(Coefficients, const Number& damping, const Number& forcing,
-                                      const Number& frequency, const Number& constant_force, const Number& stiffness)
-    : h(damping), f(forcing), nu(frequency), load(constant_force), k(1), equilibrium(load), unbalanced(0), natural(1) {
+                                      const Number& frequency, const Number& constant_force, const Number& stiffness,
+                                      const BasicForceShape<Number>& force_shape)
+    : h(damping),
+      f(forcing),
+      nu(frequency),
+      load(constant_force),
+      k(1),
+      equilibrium(load),
+      unbalanced(0),
+      shape(force_shape),
+      swing(swing_of(shape)),
+      natural(1) {
   using std::abs, std::max, std::sqrt;
   if constexpr (E.stiffness) {
     set_stiffness(stiffness);
@@ -201,8 +279,9 @@ void ArcConstants<Number, E>::set_stiffness(const Number& stiffness) {
   if (E.damping == Damping::light && !(root > 0)) root = epsilon<Number>() * natural;  // h^2 < k by rounding alone
   fast = h + root;
   slow = sprung || (fast > 0 && !is_always_zero(k)) ? Number(k / fast) : Number(0);
-  if constexpr (E.forcing == Forcing::regular) response = response_to(Number(k - nu * nu), h, f, nu);
-  rate = max(nu, max(natural, Number(k > 0 ? 2 * h : fast)));
+  if constexpr (E.forcing == Forcing::regular)
+    if (!is_in_pieces()) response = response_to(Number(k - nu * nu), h, f, nu);
+  rate = max(Number(is_in_pieces() ? max(nu, Number(swing * nu)) : nu), max(natural, Number(k > 0 ? 2 * h : fast)));
 }
 
 template <class Number, Effects E>
@@ -243,60 +322,6 @@ Propagator<Number> ArcConstants<Number, E>::propagator(const Number& s) const {
   }
 }
 
-template <class Number, Effects E>
-Step<Number> ArcConstants<Number, E>::step(const Number& s) const {
-  using std::exp;
-  Step<Number> step{propagator(s)};
-  if constexpr (E.forcing != Forcing::none) step.turn = turn_by(Number(nu * s));
-  if constexpr (E.forcing == Forcing::secular) respond_from_rest(s, step);
-  if constexpr (E.damping == Damping::heavy) step.fast_decay = exp(-fast * s);
-  if constexpr (E.stiffness)
-    if (!is_always_zero(unbalanced)) step.pulled = pulled(s);
-  return step;
-}
-
-/// Displacement a time s after rest under a unit force that no spring balances (eq. 45).
-template <class Number, Effects E>
-Number ArcConstants<Number, E>::pulled(const Number& s) const {
-  if constexpr (CarriesDerivatives<Number>)
-    if (!is_always_zero(k)) return pulled_by_no_spring(h, k, s);
-  return s * s * second_divided_decay(Number(2 * h * s));
-}
-
-/// Displacement and velocity a time s after rest under a unit force sin(phase): Im(e^{i phase} w(s)) with w of eq. 11,
-/// which has no difference of large numbers.
-template <class Number, Effects E>
-void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& step) const {
-  using std::cos, std::exp, std::sin;
-  const Number least = secular_distance * natural;  // sets of all effects serve scenes away from resonance, too
-  if (!(h * h + detuning * detuning < least * least)) return respond_away_from_resonance(step);
-  const Number lambda = root, c = cos(nu * s), d = sin(nu * s);
-  const auto [q_re, q_im] = divided_exponential<Number>(-h * s, -detuning * s);
-  const Number near_re = s * (c * q_re - d * q_im), near_im = s * (c * q_im + d * q_re);  // E(mu)
-  const Number decay = exp(-h * s), top_re = c - decay * cos(lambda * s), top_im = d + decay * sin(lambda * s);
-  const Number sum = nu + lambda, square = h * h + sum * sum;
-  const Number far_re = (top_re * h + top_im * sum) / square, far_im = (top_im * h - top_re * sum) / square;  // E(mu*)
-  const Number minus_re = near_re - far_re, minus_im = near_im - far_im, plus_re = near_re + far_re,
-               plus_im = near_im + far_im;
-  const Number w_re = minus_im / (2 * lambda), w_im = -minus_re / (2 * lambda);
-  step.displacement = {w_re, w_im};
-  step.velocity = {plus_re / 2 - h * w_re, plus_im / 2 - h * w_im};  // [mu E(mu) - mu* E(mu*)]/(2 i lambda)
-}
-
-/// The same by the steady response and the free motion that it leaves, w = (P + iQ)(e^{i nu s} - A - i nu B) with eqs.
-/// 7 and 44: eq. 11 is a difference of numbers 1/lambda times larger, which is much near critical damping.
-template <class Number, Effects E>
-void ArcConstants<Number, E>::respond_away_from_resonance(Step<Number>& step) const {
-  const Propagator<Number>& free = step.free;
-  const Turn<Number>& turn = step.turn;
-  const Response<Number> unit = response_to(Number(k - nu * nu), h, Number(1), nu);
-  const auto times_unit = [&](const Number& re, const Number& im) -> SineCosine<Number> {
-    return {unit.in_phase * re - unit.quadrature * im, unit.in_phase * im + unit.quadrature * re};
-  };
-  step.displacement = times_unit(turn.cosine_minus_one - free.a_minus_one, turn.sine - nu * free.b);
-  step.velocity = times_unit(k * free.b - nu * turn.sine, nu * (1 + turn.cosine_minus_one - free.c));
-}
-
 /// Whether a time is short for the oscillator of heavy damping.
 template <class Number, Effects E>
 bool ArcConstants<Number, E>::is_short(const Number& s) const {
@@ -317,3 +342,5 @@ Number ArcConstants<Number, E>::short_a_minus_one(const Number& s) const {
 }
 
 }  // namespace clatter::motion
+
+#include "motion/arc_steps.hpp"

@@ -18,10 +18,15 @@ template <class Number, Effects E>
   return lower < middle - far && middle + far < upper;
 }
 
+/// Whether a force in pieces is constant on an arc.
+template <class Number, Effects E>
+[[nodiscard]] bool has_constant_force(const Arc<Number, E>& arc) {
+  return arc.constants().is_in_pieces() && arc.constants().swing == 0 && arc.start().cosine == 0;
+}
 /// Whether the energy of a flight is conserved.
 template <class Number, Effects E>
 [[nodiscard]] bool conserves_energy(const Arc<Number, E>& arc) {
-  if constexpr (E.stiffness) return arc.constants().h == 0 && arc.constants().f == 0;
+  if constexpr (E.stiffness) return arc.constants().h == 0 && (arc.constants().f == 0 || has_constant_force(arc));
   return E.damping == Damping::none && E.forcing == Forcing::none;
 }
 
@@ -114,11 +119,17 @@ class GapRule {
     using std::abs, std::max, std::sqrt;
     const Motion<Number>& from = arc_.start();
     const Number fall = (arc_.anchor() - x) + from.offset,
-                 middle = arc_.constants().spring(from.x + x) - 2 * arc_.constants().load;
+                 middle = arc_.constants().spring(from.x + x) - 2 * constant_load();
     const Number scale = max(max(Number(abs(fall)), Number(abs(middle))), Number(abs(from.v)));
     if (!(scale > 0)) return Number(0);
     return scale *
            sqrt(max(Number(0), Number((from.v / scale) * (from.v / scale) + (fall / scale) * (middle / scale))));
+  }
+
+  /// The load, and a force that is constant in a piece.
+  [[nodiscard]] Number constant_load() const {
+    const auto& c = arc_.constants();
+    return c.is_in_pieces() ? Number(c.load + c.f * arc_.start().sine) : c.load;
   }
 
   const A& arc_;

@@ -59,6 +59,7 @@ template <class Number, Effects E>
                                                    Side side) {
   using std::abs, std::atan2, std::sqrt;
   const Number& f = constants.f;
+  if (constants.is_in_pieces()) return phase_of_shape(constants.shape, f, needed, side == Side::upper);
   if (E.forcing == Forcing::none || !(abs(needed) < abs(f))) return std::nullopt;
   // |cos(theta)|, over |f| so that no square vanishes
   const Number size = abs(f), along = sqrt((size - needed) / size * ((size + needed) / size));

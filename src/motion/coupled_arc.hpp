@@ -22,7 +22,7 @@ using AnyConstants =
 /// An oscillator's constants as those of any.
 template <class Number, Effects E>
 [[nodiscard]] AnyConstants<Number> as_any(const ArcConstants<Number, E>& of) {
-  auto any = AnyConstants<Number>::of(of.h, of.f, of.nu, of.load, of.k);
+  auto any = AnyConstants<Number>::of(of.h, of.f, of.nu, of.load, of.k, of.shape);
   any.stop = of.stop, any.friction = of.friction, any.carried = of.carried, any.rubbing = of.rubbing;
   any.origin = of.origin, any.balance = of.balance, any.equilibrium = of.equilibrium, any.period = of.period;
   return any;
@@ -83,7 +83,7 @@ struct Coupling {
       force *= c.nu * d / static_cast<double>(k);
       const Number pushed = kappa * z[k] + damper * (more * z[k + 1]);
       const Number pulled = -stiffness * x[k] - damping * (more * x[k + 1]) + force * next + pushed;
-      const Number turn = -drive;
+      const Number turn = -c.curl() * drive;
       drive = next, next = turn;
       x[k + 2] = is_held ? Number(0) : Number(pulled / both);
       z[k + 2] = -pushed / ratio / both - x[k + 2];
@@ -142,8 +142,7 @@ class CoupledArc {
   [[nodiscard]] Number displacement(const Number& s) const { return at(s).x; }
   /// The forcing phase a time s after the start.
   [[nodiscard]] SineCosine<Number> phase_after(const Number& s) const {
-    const SineCosine<Number> change = change_by(turn_by(Number(constants_.nu * s)), {start_.sine, start_.cosine});
-    return {start_.sine + change.sine, start_.cosine + change.cosine};
+    return constants_.phase_after({start_.sine, start_.cosine}, s);
   }
   /// Offset and velocity over the step.
   [[nodiscard]] Series offset() const { return from_powers(offset_powers()); }

@@ -14,6 +14,7 @@ template <class Number, std::size_t count = 2>
 struct DerivativeBounds {
   std::array<Number, count> free{};    ///< over the energy norm; of k > 0 only
   std::array<Number, count> forced{};  ///< of the force's part of the same derivatives, in secular motion from rest
+  std::array<Number, count> by_value{}, by_slope{};  ///< of the same over s and ds/dtheta, if the force is in pieces
 };
 
 /// By the recursion that eq. 3 is for its derivatives; `natural` is |k|^(1/2).
@@ -35,13 +36,15 @@ template <std::size_t count = 2, class Number, Effects E>
     if (order >= 6) {
       bounds.free[order - 6] = norm(per_energy, v_part);
       bounds.forced[order - 6] = abs(equation.f) * norm(re, im);
+      bounds.by_value[order - 6] = abs(equation.f * re), bounds.by_slope[order - 6] = abs(equation.f * im);
     }
     const Number x_next = -spring(v_part), v_next = x_part - equation.twice_h * v_part;
     x_part = x_next, v_part = v_next;
     const Number after_re = -equation.twice_h * next_re - spring(re) + power_re,
                  after_im = -equation.twice_h * next_im - spring(im) + power_im;
     re = next_re, im = next_im, next_re = after_re, next_im = after_im;
-    const Number turned = -equation.nu * power_im;
+    Number turned = -equation.nu * power_im;
+    if constexpr (E.stiffness) turned = equation.curl * turned;
     power_im = equation.nu * power_re, power_re = turned;
   }
   return bounds;

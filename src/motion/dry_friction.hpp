@@ -77,7 +77,7 @@ class Slips {
 
  private:
   [[nodiscard]] static ArcConstants<Number, E> moved(const ArcConstants<Number, E>& still, const Number& force) {
-    auto slip = ArcConstants<Number, E>::of(still.h, still.f, still.nu, still.load + force, still.k);
+    auto slip = ArcConstants<Number, E>::of(still.h, still.f, still.nu, still.load + force, still.k, still.shape);
     slip.friction = force, slip.carried = still.carried, slip.rubbing = still.rubbing;
     return slip;
   }

@@ -17,6 +17,7 @@ struct EquationOfMotion {
   Number twice_h, f, nu;
   Number k{1.0};           ///< stiffness; not read unless it is an effect
   Number unbalanced{0.0};  ///< the load, if no spring balances it; likewise
+  Number curl{1.0};        ///< w^2 of the shape of the force, s'' = -w^2 s by the phase; likewise
 
   /// At a displacement y from the load's equilibrium.
   [[nodiscard]] Number acceleration(const Number& y, const Number& v, const Number& sine) const {
@@ -29,7 +30,7 @@ struct EquationOfMotion {
   [[nodiscard, gnu::always_inline]] inline HigherDerivatives<Number> derivatives(const Number& v, const Number& a,
                                                                                  const Number& sine,
                                                                                  const Number& cosine) const {
-    const Number square = Number(0) - nu * nu, force3 = force(f * nu, cosine), force4 = force(f * square, sine);
+    const Number square = curled(Number(0) - nu * nu), force3 = force(f * nu, cosine), force4 = force(f * square, sine);
     HigherDerivatives<Number> d;
     d.d3 = next(force3, a, v);
     d.d4 = next(force4, d.d3, a);
@@ -39,6 +40,11 @@ struct EquationOfMotion {
   }
 
  private:
+  /// A second derivative by the phase, which lanes take of sines alone.
+  [[nodiscard]] Number curled(const Number& y) const {
+    if constexpr (E.stiffness && !requires { typename Number::Batch; }) return curl * y;
+    return y;
+  }
   [[nodiscard]] static Number force(const Number& size, const Number& phase) {
     if constexpr (E.forcing == Forcing::none) return Number(0);
     return size * phase;

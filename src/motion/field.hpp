@@ -17,14 +17,15 @@ struct LocalBounds {
 /// The oscillator that motions belong to between two events: x'' + 2 h x' + k x = force.
 struct Field {
   double h = 0, k = 1;
-  double shake = 0;   ///< |f| nu
+  double shake = 0;   ///< |f| nu, times the largest |ds/dtheta| of a force in pieces
   double weight = 1;  ///< Omega: the norm of a difference is that of (Omega x, v)
   double drift = 0;   ///< bound of the rate at which the norm grows, forwards (eqs. 48, 57); backwards 2 h more
 
   /// The field of some arcs in the norm of (x, v), where time is counted in units of 1/`rate`.
   template <class ArcConstants>
   [[nodiscard]] static Field of(const ArcConstants& constants, double rate) {
-    const double k = constants.k / (rate * rate), shake = std::abs(constants.f) / (rate * rate) * (constants.nu / rate);
+    const double k = constants.k / (rate * rate), shake = static_cast<double>(constants.steepest()) *
+                                                          std::abs(constants.f) / (rate * rate) * (constants.nu / rate);
     return {constants.h / rate, k, shake, 1, std::abs(1 - k) / 2};
   }
 
@@ -39,8 +40,8 @@ struct Field {
 
   /// By x''' = f nu cos(theta) - k x' - 2 h x''; infinite if the time is too long for that.
   [[nodiscard]] LocalBounds near(double speed, double acceleration, double time) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const double size = std::abs(k), share = size * time * time + 2 * h * time;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     if (!(share <= 0.5)) return {infinity, infinity, infinity};
     const double most = (acceleration + time * (shake + size * speed)) / (1 - share);
     return {most, shake + size * speed + most * (size * time + 2 * h), std::exp((2 * h + drift) * time)};

@@ -21,7 +21,8 @@ class GuidedContact {
  public:
   GuidedContact(const ArcConstants<Number, E>& constants, const BasicStops<Number>& stops)
       : constants_(ArcConstants<double, E>::of(in_double(constants.h), in_double(constants.f), in_double(constants.nu),
-                                               in_double(constants.load), in_double(constants.k))),
+                                               in_double(constants.load), in_double(constants.k),
+                                               with_numbers<double>(constants.shape))),
         stops_(stops) {
     guided_stops_.lower = in_double(stops.lower), guided_stops_.upper = in_double(stops.upper);
   }

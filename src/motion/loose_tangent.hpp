@@ -40,7 +40,9 @@ class LooseTangent {
     if (is_rough_ && !std::exchange(is_told_, false)) change_hold(carries, load, is_held);
     settle(start.a, a_loose);
     if (sticks_ && !is_held)
-      release(start.a, a_loose, constants.spring(1.0) / (constants.f * constants.nu * start.cosine));
+      release(
+          start.a, a_loose,
+          constants.is_after_jump(start) ? 0.0 : constants.spring(1.0) / (constants.f * constants.nu * start.cosine));
     if constexpr (Housed<A>) on_wall_ = wall_of(arc.loose) != Side::none;
     const Row place = place_in_housing();
     flow(arc, length);

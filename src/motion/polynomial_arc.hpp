@@ -39,6 +39,7 @@ class PolynomialArc {
 
   /// The forcing phase a time s after the start.
   [[nodiscard]] SineCosine<double> phase_after(double s) const {
+    if (constants_->is_in_pieces()) return constants_->phase_after(constants_->phase_at(turns_), s);
     return sine_cosine_of_turns(turns_ + s / constants_->period);
   }
 

@@ -25,6 +25,7 @@ class RoughNeighbourhood : public SoftNeighbourhood {
   void arc(const A& arc, double tau, double duration) {
     const double begin = now_;
     SoftNeighbourhood::arc(arc, tau, duration);
+    forbid_jump(rate_ * duration);
     if (!holds_) return;
     keep_moving(arc, begin, now_ - begin);
     if (moving_from_ <= now_) least_bound_ = 0;

@@ -39,7 +39,8 @@ class SoftContact {
     const Oscillator pressed{.damping = static_cast<double>(free.h + stop.damping),
                              .forcing = static_cast<double>(free.f),
                              .frequency = static_cast<double>(free.nu),
-                             .stiffness = static_cast<double>(free.k + stop.stiffness)};
+                             .stiffness = static_cast<double>(free.k + stop.stiffness),
+                             .shape = {.waveform = free.shape.waveform}};
     if (!rotates(pressed)) return Of<Damping::heavy, Forcing::regular>::in_contact(free, stop);
     if (forcing_of(pressed) == Forcing::secular) return Of<Damping::light, Forcing::secular>::in_contact(free, stop);
     return Of<Damping::light, Forcing::regular>::in_contact(free, stop);

@@ -32,6 +32,7 @@ class SoftNeighbourhood : public Neighbourhood {
     if (mode_ != outside && mode_ != unknown) leave(arc);
     mode_ = outside;
     Neighbourhood::arc(arc, tau, duration);
+    if (has_soft_stop(stops_)) forbid_jump(rate_ * duration);
     holds_ = holds_ && (!leaving_ || stays_left());
     last_ = in_units(arc.at(duration)), bound_ = reach_;
   }
@@ -48,6 +49,10 @@ class SoftNeighbourhood : public Neighbourhood {
   [[nodiscard]] bool holds() const { return Neighbourhood::holds() && clear_from_ <= now_; }
 
  protected:
+  /// Ends the proof at an arc that begins with a jump of the force, of which soft contacts and reversals have no
+  /// bounds.
+  void forbid_jump(double length) { holds_ = holds_ && since_jump_ > length; }
+
   /// Where the mass is: between the stops, in contact with a soft one, or beyond its position without contact.
   enum Mode : std::uint8_t { unknown, outside, contact, outrun };
 
@@ -79,6 +84,8 @@ class SoftNeighbourhood : public Neighbourhood {
     const auto& constants = arc.constants();
     const double length = rate_ * duration, begin = std::exchange(now_, now_ + length);
     field_ = mode == contact ? in_its_norm(Field::of(constants, rate_)) : Field::of(constants, rate_);
+    note_jump(arc, duration);
+    forbid_jump(length);
     stop_ = soft_stop_at<double>(stops_, side);
     const double size = std::max(least_bound_, size_in(field_)) * field_.growth(length);
     bound_ = approached_ == Side::none ? size : std::max(bound_, size);

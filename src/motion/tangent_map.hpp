@@ -92,7 +92,8 @@ class TangentMap {
     const auto& constants = arc.constants();
     const auto& start = arc.start();
     const Number later = constants.spring(Number(1)) / (constants.f * constants.nu * start.cosine);
-    if (start.a != 0) multiply({{Number(1), Number(0), -start.a * later, Number(1)}, Number(1)});
+    if (start.a != 0 && !constants.is_after_jump(start))
+      multiply({{Number(1), Number(0), -start.a * later, Number(1)}, Number(1)});
   }
 
   /// A map times 2^exponent, with its determinant kept apart.

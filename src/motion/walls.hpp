@@ -47,7 +47,7 @@ template <class Number>
 template <class Number, Effects E>
 [[nodiscard]] ArcConstants<Number, E> drawn(const ArcConstants<Number, E>& free, const Number& friction, Side towards) {
   const Number force = sign_of(towards) * friction;
-  auto constants = ArcConstants<Number, E>::of(free.h, free.f, free.nu, free.load + force, free.k);
+  auto constants = ArcConstants<Number, E>::of(free.h, free.f, free.nu, free.load + force, free.k, free.shape);
   constants.rubbing = force, constants.period = free.period;
   return constants;
 }
@@ -57,7 +57,7 @@ template <class Constants, class Number, Effects E, class Other>
 [[nodiscard]] Constants carrying(const ArcConstants<Number, E>& free, const BasicLooseMass<Other>& loose) {
   const Number eps(loose.ratio), both = 1 + eps;
   Constants constants = Constants::of(free.h / both, free.f / both, free.nu,
-                                      (free.load + eps * Number(loose.load)) / both, free.k / both);
+                                      (free.load + eps * Number(loose.load)) / both, free.k / both, free.shape);
   constants.carried = eps, constants.period = free.period;
   return constants;
 }

@@ -31,6 +31,8 @@ constexpr NamedVariable names[] = {
     {"stop_upper", {"upper stop", "$x_+$"}, Name{"", "stop_upper"}},
     {"R_lower", {"restitution, lower stop", "$R_-$"}, Name{"", "R_lower"}},
     {"R_upper", {"restitution, upper stop", "$R_+$"}, Name{"", "R_upper"}},
+    {"force_duty", {"share of the first part of the force", "$d$"}, Name{"", "force_duty"}},
+    {"force_rise", {"share of the rise of the force", "$r$"}, Name{"", "force_rise"}},
     {"R_exponent", {"exponent of the restitution", "$p$"}, Name{"", "R_exponent"}},
     {"R_reference_speed", {"reference speed of the restitution", "$V$"}, Name{"", "R_reference_speed"}},
     {"R_below", {"least speed of a rebound", "$v_{r}$"}, Name{"", "R_below"}},

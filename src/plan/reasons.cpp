@@ -61,7 +61,11 @@ Reason damping_reason(const Oscillator& oscillator) {
 
 Reason forcing_reason(const Oscillator& oscillator) {
   if (oscillator.forcing == 0) return {"forcing", false, "f = 0: no forcing"};
-  return {"forcing", true, "f = " + text(oscillator.forcing)};
+  const ForceShape& shape = oscillator.shape;
+  std::string said = "f = " + text(oscillator.forcing);
+  if (!shape.is_sine()) said += ", " + std::string(force_shapes[static_cast<std::size_t>(shape.waveform)]);
+  if (const double mean = mean_of(shape); mean != 0) said += " with the mean " + text(oscillator.forcing * mean);
+  return {"forcing", true, said};
 }
 
 /// The force that takes the place of shaken stops or a shaken base.
@@ -79,6 +83,8 @@ Reason resonance_reason(const Oscillator& oscillator) {
   if (oscillator.stiffness <= 0) return {"resonance", false, "no spring that a force could be in resonance with"};
   const double distance = std::hypot(oscillator.damping, oscillator.frequency - 1);
   if (oscillator.forcing == 0) return {"resonance", false, "f = 0: nothing to resonate with"};
+  if (!oscillator.shape.is_sine())
+    return {"resonance", true, "a force in pieces: in each of them response and transient are computed together"};
   const std::string what = "hypot(h, nu - 1) = " + text(distance);
   if (forcing_of(oscillator) == Forcing::secular)
     return {"resonance", true, what + " < 1/16: response and transient nearly cancel"};

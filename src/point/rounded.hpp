@@ -33,7 +33,8 @@ template <class Number>
   const auto d = [](const Number& y) { return static_cast<double>(y); };
   const motion::Motion<Number>& m = arc.start();
   const auto& of = arc.constants();
-  auto constants = motion::AnyConstants<double>::of(d(of.h), d(of.f), d(of.nu), d(of.load), d(of.k));
+  auto constants =
+      motion::AnyConstants<double>::of(d(of.h), d(of.f), d(of.nu), d(of.load), d(of.k), with_numbers<double>(of.shape));
   constants.stop = {of.stop.side, d(of.stop.position), d(of.stop.stiffness), d(of.stop.damping)};
   constants.carried = d(of.carried), constants.friction = d(of.friction), constants.rubbing = d(of.rubbing);
   constants.origin = d(of.origin), constants.balance = d(of.balance), constants.equilibrium = d(of.equilibrium);

@@ -50,7 +50,8 @@ std::optional<BandEdge> creeps_to(const Scene& scene, double x, double v, const 
   const Oscillator& o = scene.oscillator;
   const Friction& friction = scene.friction;
   const double f = std::abs(o.forcing), nu = o.frequency;
-  if (!(has_friction(friction) && friction.static_level == friction.kinetic && f > 0 && held_pull(scene) >= 0))
+  if (!(o.shape.is_sine() && has_friction(friction) && friction.static_level == friction.kinetic && f > 0 &&
+        held_pull(scene) >= 0))
     return std::nullopt;
   const Pull pull = pull_at(scene, x);
   const double force = pull.at(x), left = std::abs(force) - held_pull(scene), way = force > 0 ? 1 : -1;
@@ -79,7 +80,8 @@ std::optional<double> edge_of_band(const Scene& scene, Side side, double x) {
 
 Side band_edge_at(const Scene& scene, double x) {
   const Oscillator& o = scene.oscillator;
-  if (scene.friction.static_level != scene.friction.kinetic || o.forcing == 0) return Side::none;
+  const bool is_driven = o.forcing != 0 && o.shape.is_sine();
+  if (scene.friction.static_level != scene.friction.kinetic || !is_driven) return Side::none;
   const Pull pull = pull_at(scene, x);
   const double held = held_pull(scene), force = pull.at(x);
   const double rounding = 64 * std::numeric_limits<double>::epsilon() *

@@ -160,6 +160,8 @@ double displacement_bound(const Oscillator& oscillator, const PhaseState& now, d
   if (has_other_spring(oscillator))
     return displacement_bound(with_unit_spring(oscillator), with_unit_spring(oscillator, now),
                               duration * natural_frequency(oscillator), enough);
+  if (!oscillator.shape.is_sine())  // whose response has all harmonics
+    return displacement_bound_through_impacts(oscillator, now, duration);
   const auto response = steady_response(oscillator);
   const PhasePoint transient = without(at_phase(response, oscillator.frequency, now.sine, now.cosine), now);
   double bound = std::numeric_limits<double>::infinity();
@@ -193,6 +195,7 @@ double friction_bound(const Oscillator& oscillator, const Friction& friction) {
 }
 
 bool response_meets(const Oscillator& oscillator, const Stops& stops) {
+  if (!oscillator.shape.is_sine()) return true;  // it may
   const auto response = steady_response(oscillator);
   return !(response.amplitude < gap_of(oscillator, stops));
 }
@@ -201,7 +204,8 @@ bool grows_at_resonance(const Scene& scene) {
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
   const double natural = natural_frequency(o);
-  return o.stiffness > 0 && o.damping == 0 && o.forcing != 0 && std::isinf(stops.lower) && std::isinf(stops.upper) &&
+  return o.stiffness > 0 && o.damping == 0 && o.forcing != 0 && o.shape.is_sine() && std::isinf(stops.lower) &&
+         std::isinf(stops.upper) &&
          std::abs(o.frequency - natural) <= 4 * std::numeric_limits<double>::epsilon() * natural;
 }
 
@@ -220,9 +224,9 @@ bool grows_under_friction(const Scene& scene, double x, double v, const SineCosi
   return natural * std::copysign(1.0, o.forcing) * swing - 2 * kinetic > (f + static_level) * (1 + rounding);
 }
 
-/// Whether the mass moves on for ever under friction: once the spring and the load together push it on harder than the
-/// other forces can push it back, the spring, if there is one, only helps.
-bool escapes_friction(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
+/// Whether the mass moves on for ever, with friction or without: once the spring and the load together push it on
+/// harder than the other forces can push it back, the spring, if there is one, only helps.
+bool is_pushed_away(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
   if (o.stiffness > 0) return grows_under_friction(scene, x, v, phase);
@@ -235,8 +239,8 @@ bool escapes_friction(const Scene& scene, double x, double v, const SineCosine<d
 }  // namespace
 
 bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
-  if (has_friction(scene.friction)) return escapes_friction(scene, x, v, phase);
   const Oscillator& o = scene.oscillator;
+  if (has_friction(scene.friction) || !o.shape.is_sine()) return is_pushed_away(scene, x, v, phase);
   const Stops& stops = scene.stops;
   if (grows_at_resonance(scene)) return true;
   if (!(o.stiffness <= 0) || (std::isfinite(stops.lower) && std::isfinite(stops.upper))) return false;
@@ -266,7 +270,7 @@ bool sticks_for_good(const Scene& scene, double x) {
   double force = constant_force(scene.oscillator, x);
   if (soft_stop_beyond(stops, x) == Side::lower) force -= stops.stiffness_lower * (x - stops.lower);
   if (soft_stop_beyond(stops, x) == Side::upper) force -= stops.stiffness_upper * (x - stops.upper);
-  return scene.friction.static_level - std::abs(force) >= std::abs(scene.oscillator.forcing);
+  return holds_throughout(scene.friction.static_level, force, scene.oscillator.forcing, scene.oscillator.shape);
 }
 
 bool never_moves(const Scene& scene) {

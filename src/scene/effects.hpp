@@ -157,10 +157,15 @@ inline constexpr double secular_distance = 1.0 / 16.0;
   return oscillator.damping * oscillator.damping < oscillator.stiffness;
 }
 
+/// Whether the arcs of an oscillator need the sets of any stiffness: its own is another, or its force is no sine.
+[[nodiscard]] constexpr bool is_general(const Oscillator& oscillator) {
+  return oscillator.stiffness != 1.0 || !oscillator.shape.is_sine();
+}
+
 /// Every effect that an oscillator with this damping and stiffness can have; from h = 1/16 on there is no resonance.
 [[nodiscard]] constexpr Effects all_effects(const Oscillator& oscillator) {
   const double h = oscillator.damping;
-  if (oscillator.stiffness != 1.0)
+  if (is_general(oscillator))
     return rotates(oscillator) ? effect_sets::of_any_stiffness(Damping::light, Forcing::secular)
                                : effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular);
   if (h >= 1.0) return effect_sets::complete(Damping::heavy, Forcing::regular);
@@ -192,7 +197,7 @@ inline constexpr double secular_distance = 1.0 / 16.0;
 
 [[nodiscard]] constexpr Damping damping_of(const Oscillator& oscillator) {
   const double h = oscillator.damping, k = oscillator.stiffness;
-  if (k != 1.0) {
+  if (is_general(oscillator)) {
     if (!rotates(oscillator)) return h * h == k && k > 0 ? Damping::critical : Damping::heavy;
     return h == 0.0 ? Damping::none : Damping::light;
   }
@@ -233,7 +238,7 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
 /// The effects that general methods simulate in every scene; damping only says how small changes of a motion decay.
 [[nodiscard]] constexpr Effects general_effects(const Oscillator& oscillator) {
   const double h = oscillator.damping;
-  if (oscillator.stiffness != 1.0)
+  if (is_general(oscillator))
     return effect_sets::of_any_stiffness(rotates(oscillator) ? Damping::light : Damping::heavy, Forcing::regular);
   const Damping damping = h == 0 ? Damping::none : h < 1 ? Damping::light : Damping::heavy;
   return effect_sets::complete(damping, Forcing::regular);
@@ -268,7 +273,7 @@ decltype(auto) with_general_effects(const Scene& scene, Function&& function) {
 /// Calls `function.operator()<set>()` for an oscillator between any rigid stops: one of the twelve complete sets.
 template <class Function>
 decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function) {
-  if (oscillator.stiffness != 1.0) {
+  if (is_general(oscillator)) {
     if (rotates(oscillator))
       return function.template operator()<effect_sets::of_any_stiffness(Damping::light, Forcing::secular)>();
     return function.template operator()<effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular)>();

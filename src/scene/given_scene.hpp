@@ -70,7 +70,7 @@ template <class Number, class Unit>
   const Number& m = given.mass;
   const Number force = units.stiffness * (m / units.mass);  // that gives a unit of displacement to k = 1
   BasicScene<Number> scene = given;
-  auto& [h, f, nu, load, k] = scene.oscillator;
+  auto& [h, f, nu, load, k, shape] = scene.oscillator;
   f = f / force, load = load / force, k = k / force;
   scene.friction.kinetic = scene.friction.kinetic / force;
   scene.friction.static_level = scene.friction.static_level / force;
@@ -122,7 +122,8 @@ template <class Number, class Unit>
   const bool is_in_own_units = !given.is_si && units == BasicUnits<Unit>{};
   BasicScene<Number> scene = given;
   if (!is_in_own_units) scene = detail::in_units(given, units);
-  const auto complete = [](const Number& kinetic, Number& static_level) {  // 0: the static level isn't given
+  if (is_always_zero(scene.oscillator.forcing)) scene.oscillator.shape = {};  // of nothing
+  const auto complete = [](const Number& kinetic, Number& static_level) {     // 0: the static level isn't given
     if (static_level < kinetic || is_always_zero(static_level)) static_level = kinetic;
   };
   complete(scene.friction.kinetic, scene.friction.static_level);

@@ -4,18 +4,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/force_shape.hpp"
+
 namespace clatter {
 inline namespace scene {
 
 /// x'' + 2 h x' + k x = f sin(nu tau + phase) + load (eq. 3): with k = 1 in units of the natural frequency and the
-/// spring.
+/// spring. A force of another shape is f s(nu tau + phase).
 template <class Number>
 struct BasicOscillator {
-  Number damping{0.0};    ///< h, damping ratio, >= 0
-  Number forcing{0.0};    ///< f, force amplitude over stiffness, any finite
-  Number frequency{1.0};  ///< nu, excitation over natural frequency, > 0
-  Number load{0.0};       ///< constant force over stiffness, any finite
-  Number stiffness{1.0};  ///< k, any finite: 0 without a spring, negative for one that pushes away
+  Number damping{0.0};              ///< h, damping ratio, >= 0
+  Number forcing{0.0};              ///< f, force amplitude over stiffness, any finite
+  Number frequency{1.0};            ///< nu, excitation over natural frequency, > 0
+  Number load{0.0};                 ///< constant force over stiffness, any finite
+  Number stiffness{1.0};            ///< k, any finite: 0 without a spring, negative for one that pushes away
+  BasicForceShape<Number> shape{};  ///< of the force
 
   friend bool operator==(const BasicOscillator&, const BasicOscillator&) = default;
 };
@@ -51,8 +54,12 @@ template <class Number = double>
 /// 0. Displacements stay as they are, velocities are divided by that frequency.
 [[nodiscard]] inline Oscillator with_unit_spring(const Oscillator& oscillator) {
   const double k = std::abs(oscillator.stiffness), rate = natural_frequency(oscillator);
-  return {oscillator.damping / rate, oscillator.forcing / k, oscillator.frequency / rate, oscillator.load / k,
-          std::copysign(1.0, oscillator.stiffness)};
+  return {oscillator.damping / rate,
+          oscillator.forcing / k,
+          oscillator.frequency / rate,
+          oscillator.load / k,
+          std::copysign(1.0, oscillator.stiffness),
+          oscillator.shape};
 }
 
 /// The frequency of the periods in which a run is counted: nu under forcing, else that of the spring, 1 if it has none.

@@ -59,7 +59,7 @@ class Parameter {
   /// Whether a scene that is its own mirror image stays so if the parameter changes; a stiffness moves the equilibrium
   /// of a load.
   [[nodiscard]] constexpr bool keeps_symmetry() const {
-    return side() == Side::none && role() != Role::load && role() != Role::loose_load;
+    return side() == Side::none && role() != Role::load && role() != Role::loose_load && role() != Role::force_shape;
   }
 
   friend constexpr bool operator==(Parameter, Parameter) = default;

@@ -19,7 +19,13 @@ namespace detail {
 constexpr std::string_view a_force = "f = 1.0\n", friction_only = "friction = 0.2\n", gap_only = "gap = 3e-3\n",
                            mass_stops_frequency = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nfrequency = 25.0\n",
                            mass_stops_force = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\n",
-                           forced = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\nfrequency = 25.0\n";
+                           forced = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\nfrequency = 25.0\n",
+                           square_force =
+                               "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\n"
+                               "frequency = 25.0\nforce_shape = \"square\"\n",
+                           trapezoid_force =
+                               "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\n"
+                               "frequency = 25.0\nforce_shape = \"trapezoid\"\n";
 
 /// Arrays one behind the other.
 template <class Row, std::size_t... sizes>
@@ -44,6 +50,7 @@ constexpr auto parameter_rows() {
   using B = BasicStart<Number>;
   using K = BasicShaking<Number>;
   using F = BasicFriction<Number>;
+  using W = BasicForceShape<Number>;
   using Row = ParameterRow<Number>;
   constexpr auto o = &Parts::oscillator;
   constexpr auto b = &Parts::start;
@@ -126,6 +133,27 @@ constexpr auto parameter_rows() {
                          "forcing phase at t = 0"},
           .role = Role::start,
           .place = in<Number, b, &B::phase>},
+      Row{.key = "force_duty",
+          .range = {.low = 0, .high = 1, .open = true},
+          .in_scene = {"0.5", "0.3",
+                       "share of the period of the first part of a force: of a square its +f, of a pulse its f, of a "
+                       "half-sine the half wave",
+                       "f = 1.0\nforce_shape = \"square\"\n", "share of the first part of the force"},
+          .in_machine = {"0.5", "0.3",
+                         "share of the period of the first part of a force: of a square its +force, of a pulse its "
+                         "force, of a half-sine the half wave",
+                         square_force, "share of the first part of the force"},
+          .role = Role::force_shape,
+          .place = of_law<Number, o, &O::shape, &W::duty>},
+      Row{.key = "force_rise",
+          .range = {.low = 0, .high = 0.5, .above = true},
+          .in_scene = {"0.25", "0.1", "share of the period in which a trapezoid rises from -f to f, and falls again",
+                       "f = 1.0\nforce_shape = \"trapezoid\"\n", "share of the rise of the force"},
+          .in_machine = {"0.25", "0.1",
+                         "share of the period in which a trapezoid rises from -force to force, and falls again",
+                         trapezoid_force, "share of the rise of the force"},
+          .role = Role::force_shape,
+          .place = of_law<Number, o, &O::shape, &W::rise>},
   };
   const std::array after_stops{
       Row{.key = "load",

@@ -28,7 +28,7 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
   Requirements needs{
-      {.damping = damping_of(o), .forcing = forcing_of(o), .load = o.load != 0, .stiffness = o.stiffness != 1.0}};
+      {.damping = damping_of(o), .forcing = forcing_of(o), .load = o.load != 0, .stiffness = is_general(o)}};
   needs.effects.friction = has_friction(scene.friction), needs.effects.loose = has_loose_mass(scene.loose);
   const double middle = equilibrium_of(o);
   needs.lower_gap = middle - stops.lower, needs.upper_gap = stops.upper - middle;

@@ -56,8 +56,8 @@ template <class Number, class Other>
   const auto n = [](const Other& number) { return Number(number); };
   const auto law = [](const Restitution<Other>& of) { return Restitution<Number>(of); };
   BasicScene<Number> same;
-  same.oscillator = {n(oscillator.damping), n(oscillator.forcing), n(oscillator.frequency), n(oscillator.load),
-                     n(oscillator.stiffness)};
+  same.oscillator = {n(oscillator.damping), n(oscillator.forcing),   n(oscillator.frequency),
+                     n(oscillator.load),    n(oscillator.stiffness), with_numbers<Number>(oscillator.shape)};
   same.stops = {
       n(stops.lower),           n(stops.upper),           law(stops.restitution_lower), law(stops.restitution_upper),
       n(stops.stiffness_lower), n(stops.stiffness_upper), n(stops.damping_lower),       n(stops.damping_upper)};
@@ -84,11 +84,13 @@ template <class Number, class Other>
 /// The place about which the mirror image of each motion, half a forcing period later, is a motion too: the equilibrium
 /// of the spring or, without spring and load, the middle between the stops. Nothing if stops or load aren't the same on
 /// both sides of it, to rounding. A loose mass is mirrored about the middle of its walls; with a load of its own, or
-/// walls that aren't alike, it has no mirror image.
+/// walls that aren't alike, it has no mirror image; nor has a motion under a force that half a period later isn't its
+/// opposite.
 [[nodiscard]] inline std::optional<double> mirror_centre(const Scene& scene) {
   const Stops& stops = scene.stops;
   const Oscillator& o = scene.oscillator;
   const LooseMass& loose = scene.loose;
+  if (!is_odd_by_half(o.shape)) return std::nullopt;
   const bool is_housed = std::isfinite(loose.lower) && std::isfinite(loose.upper);
   const bool has_equal_walls = loose.restitution_lower == loose.restitution_upper &&
                                loose.stiffness_lower == loose.stiffness_upper &&

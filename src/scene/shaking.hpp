@@ -50,7 +50,7 @@ template <class Number>
 [[nodiscard]] LeadingForce<Number> force_in_frame(const BasicOscillator<Number>& oscillator,
                                                   const BasicShaking<Number>& shaking) {
   using std::cos, std::fma, std::sin;
-  const auto& [h, f, nu, load, k] = oscillator;
+  const auto& [h, f, nu, load, k, shape] = oscillator;
   const auto& [stops, base, lead, phase] = shaking;
   if (is_always_zero(stops) && is_always_zero(base)) return {f, Number(0)};
   if (!is_always_zero(phase)) {
@@ -68,7 +68,7 @@ template <class Number>
 [[nodiscard]] LeadingForce<Number> force_on_ground(const BasicOscillator<Number>& oscillator,
                                                    const BasicShaking<Number>& shaking) {
   using std::cos, std::sin;
-  const auto& [h, f, nu, load, k] = oscillator;
+  const auto& [h, f, nu, load, k, shape] = oscillator;
   const Number along = k * shaking.base, across = 2 * h * nu * shaking.base, &phase = shaking.phase;
   return leading_force(Number(f + along * cos(phase) - across * sin(phase)),
                        Number(along * sin(phase) + across * cos(phase)));

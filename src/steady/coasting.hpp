@@ -21,7 +21,7 @@ class Coasting {
       : integrator_(integrator),
         scene_(scene),
         tolerance_(tolerance),
-        is_possible_(scene.oscillator.damping != 0 && !integrator.is_rough() &&
+        is_possible_(scene.oscillator.damping != 0 && scene.oscillator.shape.is_sine() && !integrator.is_rough() &&
                      !(E.stops() && response_meets(scene.oscillator, integrator.stops()))) {}
 
   /// The steady response, if no stop is in reach from a state at a section on and damping removes the rest of the

@@ -214,7 +214,7 @@ class ForcedSearch {
   /// The steady motion in contact with a soft stop, if the stop pushes for ever: if its force on the balanced mass is
   /// larger than the forces that response and transient can take from it. The transient's energy norm never grows.
   [[nodiscard]] std::optional<ObservedTime> pressed(const motion::State<double>& state) const {
-    if (is_rough_) return std::nullopt;
+    if (is_rough_ || !scene_.oscillator.shape.is_sine()) return std::nullopt;
     const motion::Within<double> within = contact_of(state);
     if (within.side == Side::none || !within.pressed) return std::nullopt;
     const auto stop = motion::soft_stop_at<double>(integrator_.stops(), within.side);

@@ -166,7 +166,8 @@ class Housing {
 
  private:
   [[nodiscard]] static HeldConstants<Number> unmoved(const MainMass<Number, E>& alone) {
-    auto constants = HeldConstants<Number>::of(Number(0), Number(0), alone.constants().nu, Number(0), Number(0));
+    const auto& of = alone.constants();
+    auto constants = HeldConstants<Number>::of(Number(0), Number(0), of.nu, Number(0), Number(0), of.shape);
     constants.period = alone.period();
     return constants;
   }

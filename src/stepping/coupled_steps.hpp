@@ -69,7 +69,7 @@ class CoupledSteps {
 
   [[nodiscard]] static SineCosine<double> phase(const motion::AnyConstants<double>& constants,
                                                 const motion::Motion<double>& start, double s) {
-    const SineCosine<double> change = motion::change_by(motion::turn_by(constants.nu * s), {start.sine, start.cosine});
+    const SineCosine<double> change = constants.change(constants.turn(s), {start.sine, start.cosine});
     return {start.sine + change.sine, start.cosine + change.cosine};
   }
 

@@ -192,10 +192,12 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   template <Effects Of>
   void go_on(const motion::ArcConstants<double, Of>& constants, const motion::State<double>& state,
              const motion::Motion<double>& start, double anchor) {
-    const bool goes_on = Place{state.x, state.v, state.phase_turns} == reached_;
+    const bool begins_piece = constants.is_in_pieces() && state.phase_turns >= next_knot_;
+    const bool goes_on = Place{state.x, state.v, state.phase_turns} == reached_ && !begins_piece;
     reached_ = nowhere;
     if (goes_on) return;
     anchor_ = anchor, angle_ = 2 * pi<double>() * (this->start_turns() + state.phase_turns);
+    phase_ = {start.sine, start.cosine}, next_knot_ = this->next_knot(state.phase_turns);
     double first_step = std::pow(tolerance_, 0.2) / constants.rate / 2;
     const bool is_on_stop = state.from_stop != Side::none && start.offset == 0;
     const double sign = is_on_stop ? sign_of(state.from_stop) : 0, leaving = -sign * start.v, pressed = sign * start.a;
@@ -208,7 +210,9 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   template <Effects Of>
   [[nodiscard]] double acceleration(const motion::ArcConstants<double, Of>& constants, const Values& y, double s) {
     this->count_evaluations(1);
-    const double sine = constants.f == 0 ? 0.0 : std::sin(angle_ + constants.nu * s);
+    const double sine = constants.f == 0           ? 0.0
+                        : constants.is_in_pieces() ? constants.phase_after(phase_, s).sine
+                                                   : std::sin(angle_ + constants.nu * s);
     return constants.acceleration(constants.from_equilibrium(anchor_ + y[0], anchor_, y[0]), y[1], sine);
   }
 
@@ -283,6 +287,8 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   double tolerance_, size_;  ///< relative, and the length that the absolute one counts by
   Stepper stepper_;
   double anchor_ = 0.0, angle_ = 0.0;  ///< of the present flight: its anchor, and the forcing phase at its beginning
+  SineCosine<double> phase_{};         ///< the same of a force in pieces,
+  double next_knot_ = 0.0;             ///< and the end of its piece, in turns since the section
   Values here_{};                      ///< the beginning of its next step
   Place reached_ = nowhere;            ///< the state from which the flight continues
 };

@@ -36,28 +36,32 @@ class EventDriven : public IntegratorBase<N, E> {
         chatter_accuracy_(rule.accuracy) {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section (the stroboscopic section of
-  /// `motion::State`), and reports every arc and event with its time since the section `origin`.
+  /// `motion::State`), and reports every arc and event with its time since the section `origin`. Each knot of the force
+  /// ends a stage, so that the mode is found anew there, also that of a loose mass, and a chatter which goes on is told
+  /// by its impacts.
   template <class Observer>
   [[nodiscard]] Outcome advance(State& state, const Number& end, std::int64_t origin, Observer& observer) {
-    Stage<EventDriven, Observer> stage(*this, state, end, origin, observer);
-    while (end - state.phase_turns > 2 * epsilon<Number>()) {
-      this->report(state);
-      modes::enter(*this, state);
-      const Outcome outcome = run_mode(stage);
-      if (outcome != Outcome::completed) return outcome;
-      if constexpr (E.soft) modes::keep_before_touch(*this, state);
-    }
-    state.phase_turns = end;
-    return this->outcome_of(state);
+    if constexpr (E.stiffness)
+      for (Number knot = this->next_knot(state.phase_turns); knot + knot_rounding<Number>() < end;
+           knot = this->next_knot(state.phase_turns)) {
+        const Outcome outcome = advance_in_piece(state, knot, origin, observer);
+        if (outcome != Outcome::completed) return outcome;
+      }
+    return advance_in_piece(state, end, origin, observer);
   }
 
   /// The state in which a stop releases a mass from rest, in the first forcing period; nothing if it never does.
   [[nodiscard]] std::optional<State> released_from(Side side) const {
     const auto stop = motion::stop_at<Number>(this->stops(), side);
-    const auto turns = modes::release_turns(*this, stop);
-    if (!turns) return std::nullopt;
     State state;
-    state.x = stop.position, state.from_stop = side, state.released = true, state.phase_turns = *turns;
+    state.x = stop.position, state.from_stop = side;
+    if (const auto turns = modes::release_turns(*this, stop)) {
+      state.released = true, state.phase_turns = *turns;
+      return state;
+    }
+    const auto jump = modes::releasing_knot(*this, state);
+    if (!jump) return std::nullopt;
+    state.phase_turns = *jump;
     return state;
   }
 
@@ -109,6 +113,26 @@ class EventDriven : public IntegratorBase<N, E> {
   }
 
  private:
+  /// The same up to a phase, before which the force has no knot; but it may begin at one, as a section may be one.
+  template <class Observer>
+  [[nodiscard]] Outcome advance_in_piece(State& state, const Number& end, std::int64_t origin, Observer& observer) {
+    Stage<EventDriven, Observer> stage(*this, state, end, origin, observer);
+    if constexpr (E.stiffness)
+      if (this->is_at_knot(state.phase_turns)) {
+        state.chatters = false;
+        if (state.loose.pressed) state.loose.may_part = true;
+      }
+    while (end - state.phase_turns > 2 * epsilon<Number>()) {
+      this->report(state);
+      modes::enter(*this, state);
+      const Outcome outcome = run_mode(stage);
+      if (outcome != Outcome::completed) return outcome;
+      if constexpr (E.soft) modes::keep_before_touch(*this, state);
+    }
+    state.phase_turns = end;
+    return this->outcome_of(state);
+  }
+
   /// Runs the mode that the state is in, up to its event or to the end of the stage.
   template <class Stage>
   [[nodiscard]] Outcome run_mode(Stage& stage) {

@@ -83,6 +83,9 @@ class MainMass {
     if constexpr (E.friction) {
       if (!is_rough()) return false;
       const auto holding = held(state);
+      if (constants_.is_in_pieces())  // a jump may let it go
+        return holding && holding->stop == Side::none &&
+               holds_throughout(holding->level, holding->constant, constants_.f, constants_.shape);
       return holding && holding->stop == Side::none && !holding->release_phase(constants_, Side::lower) &&
              !holding->release_phase(constants_, Side::upper);
     }
@@ -97,7 +100,27 @@ class MainMass {
 
   /// The forcing phase.
   [[nodiscard]] SineCosine<Number> phase(const motion::State<Number>& state) const {
-    return sine_cosine_of_turns(Number(start_turns_ + state.phase_turns));
+    return constants_.phase_at(Number(start_turns_ + state.phase_turns));
+  }
+  /// Whether a phase, in turns since the section, is that of a knot of the force, to rounding.
+  [[nodiscard]] bool is_at_knot(const Number& phase_turns) const {
+    const Number near = 2 * knot_rounding<Number>();
+    if (constants_.is_in_pieces())
+      for (const auto& piece : pieces_of(constants_.shape))
+        if (const Number ahead = part_of_turn(Number(piece.begin - start_turns_ - phase_turns));
+            ahead <= near || ahead >= 1 - near)
+          return true;
+    return false;
+  }
+  /// The first knot of the force after a phase, in turns since the section; beyond 1 if there is none.
+  [[nodiscard]] Number next_knot(const Number& phase_turns) const {
+    Number next(2);
+    if (constants_.is_in_pieces())
+      for (const auto& piece : pieces_of(constants_.shape))
+        if (const Number knot = part_of_turn(Number(piece.begin - start_turns_));
+            knot > phase_turns + knot_rounding<Number>() && knot < next)
+          next = knot;
+    return next;
   }
 
   /// What may hold a mass at x' = 0: the constant forces there, those of a soft stop included, and the static level.

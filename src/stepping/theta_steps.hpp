@@ -39,7 +39,10 @@ class ThetaSteps : public IntegratorBase<double, E> {
   template <class Constants>
   [[nodiscard]] StepEnd step_end(const Constants& constants, const motion::State<double>& state, double turns) {
     const double length = (turns - state.phase_turns) * this->period(), part = theta_ * length;
-    const double sine = constants.f == 0 ? 0.0 : std::sin(2 * pi<double>() * (this->start_turns() + turns));
+    const double end = this->start_turns() + turns;
+    const double sine = constants.f == 0           ? 0.0
+                        : constants.is_in_pieces() ? constants.phase_at(end).sine
+                                                   : std::sin(2 * pi<double>() * end);
     const double at_begin = force(constants, state.x, state.v, sine_);
     const double at_end = force(constants, state.x + (length - part) * state.v, 0.0,
                                 sine);  // without the term in v there, which is implicit

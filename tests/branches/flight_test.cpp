@@ -14,7 +14,7 @@ namespace {
 /// The numbers of a scene that a flight depends on.
 template <class Number>
 std::array<Number*, 16> numbers_in(SceneNumbers<Number>& p) {
-  auto& [h, f, nu, load, k] = p.oscillator;
+  auto& [h, f, nu, load, k, shape] = p.oscillator;
   auto& [lower, upper, R_lower, R_upper, kappa_lower, kappa_upper, zeta_lower, zeta_upper] = p.stops;
   auto& [stops, base, lead, phase] = p.shaking;
   return {&h,     &f,     &nu,        &load,      &k,           &stops,       &base,       &phase,

@@ -13,7 +13,8 @@ import sys
 import tempfile
 
 import numpy as np
-from random_scenes import flown, is_beyond_soft, rough_scenes
+from free_flight import flown
+from random_scenes import is_beyond_soft, rough_scenes
 from scene_runs import OBSERVED, Program, fastest, machine_keys, sizes
 from steady_relations import SteadyMotions
 

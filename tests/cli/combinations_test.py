@@ -10,6 +10,7 @@ import unittest
 from combinations import Campaign, report
 from followed_branches import BranchCampaign
 from followed_curves import CurveCampaign
+from force_scenes import driven
 from random_scenes import (
     bumping_scenes,
     carrying_scenes,
@@ -45,6 +46,11 @@ class Combinations(unittest.TestCase):
         for first in range(0, COUNT // 3, AT_ONCE):
             count, seed = min(AT_ONCE, COUNT // 3 - first), SEED + 50 + first // AT_ONCE
             self.check(by_speed(rough_scenes(count, seed), seed, tables=0.15))
+
+    def test_two_ways_to_write_a_scene_under_a_force_of_any_shape_give_one_motion(self):
+        for first in range(0, COUNT // 2, AT_ONCE):
+            count, seed = min(AT_ONCE, COUNT // 2 - first), SEED + 70 + first // AT_ONCE
+            self.check(driven(rough_scenes(count, seed), seed))
 
     def test_every_impact_of_a_weak_scene_is_told(self):
         """Once spring, damper and force were next to nothing, chatter was summed from its first rebound on."""

@@ -1,17 +1,18 @@
-"""Random scenes of all effects together, the same motion written in other ways, and free flights by Taylor series."""
+"""Random scenes of all effects together, and the same motion written in other ways."""
 
 import itertools
 import math
 import random
 from dataclasses import dataclass
 
+from force_scenes import Force
 from restitution_scenes import LAWS, SPEEDS, Laws, logarithmic
 
 INF = math.inf
 
 
 @dataclass
-class Scene(Laws):
+class Scene(Laws, Force):
     """A scene in units of its own; stops at infinity aren't there, those of infinite stiffness are rigid."""
 
     h: float = 0.0
@@ -327,23 +328,3 @@ def is_beyond_soft(s):
 
 def x_beyond(x, stop, stiffness, sign):
     return math.isfinite(stiffness) and sign * (x - stop) >= 0
-
-
-def flown(s, tau, x, v, time):
-    """Displacement and velocity after a free flight, by its Taylor series in steps."""
-    rate = max(1.0, math.sqrt(abs(s.stiffness)), 2 * s.h, s.nu)
-    steps = max(1, math.ceil(4 * rate * time))
-    step = time / steps
-    for n in range(steps):
-        theta = s.nu * (tau + n * step) + s.phase
-        terms = [x, v]
-        force = s.f
-        for k in range(24):
-            forced = force * (math.sin(theta), math.cos(theta), -math.sin(theta), -math.cos(theta))[k % 4]
-            constant = s.load if k == 0 else 0.0
-            # terms[k] is the k-th derivative
-            terms.append(constant + forced - 2 * s.h * terms[k + 1] - s.stiffness * terms[k])
-            force *= s.nu
-        x = sum(term * step**k / math.factorial(k) for k, term in enumerate(terms))
-        v = sum(term * step ** (k - 1) / math.factorial(k - 1) for k, term in enumerate(terms) if k)
-    return x, v

@@ -36,6 +36,7 @@ def keys_of(scene):
             is_soft = math.isfinite(getattr(scene, "stop_stiffness" + side))
             keys += ["stop" + side] + (["stop_stiffness" + side, "stop_damping" + side] if is_soft else [])
             keys += [] if is_soft else keys_of_law(scene, "R" + side)
+    keys += scene.keys_of_force()
     optional = "stop_amplitude base_amplitude stop_phase friction friction_static".split()
     keys += [key for key in optional if getattr(scene, key) != 0]
     if scene.loose_mass:

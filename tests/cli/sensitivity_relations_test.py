@@ -17,7 +17,7 @@ from random_scenes import INF, compliant_scenes, pressing_scenes, random_scenes,
 from restitution_scenes import by_speed
 from scene_runs import STEADY, keys_of, machine_keys
 
-COUNT, _, SEED = os.environ.get("CLATTER_SENSITIVITY", "150").partition(":")
+COUNT, _, SEED = os.environ.get("CLATTER_SENSITIVITY", "90").partition(":")
 COUNT, SEED = int(COUNT), int(SEED or 461)
 
 

@@ -15,7 +15,8 @@ import numpy as np
 from coincidences import ALL, IN_LANES, SETTLE, Failures, Way, contracts, differences, log_differences
 from coincidences import machine, run
 from command_line import runs_here
-from random_scenes import compliant_scenes, drawn, flown, logarithmic, rubbed
+from free_flight import flown
+from random_scenes import compliant_scenes, drawn, logarithmic, rubbed
 from random_scenes import Scene, slipping_scenes
 from scene_runs import Program, keys_of, numbers, sizes
 

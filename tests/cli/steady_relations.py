@@ -6,7 +6,8 @@ Each comes back to its state after its period and no sooner, by the impacts and 
 import math
 
 import numpy as np
-from random_scenes import flown, is_beyond_soft
+from free_flight import flown
+from random_scenes import is_beyond_soft
 from scene_runs import OBSERVED, STEADY, complex_of, fastest
 
 

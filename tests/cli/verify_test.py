@@ -18,7 +18,7 @@ from random_scenes import close_scenes, compliant_scenes, pressing_scenes, rando
 from shipped import COARSER
 from verifying import SOFT, Verifying
 
-SCENES = int(os.environ.get("CLATTER_VERIFIED", "150"))
+SCENES = int(os.environ.get("CLATTER_VERIFIED", "60"))
 IS_LONG = SCENES > 1000
 AT_ONCE = 2000  # scenes of a configuration, which may have 1 MiB
 FIGURES = [f"fig{number}" for number in range(14, 24)]
@@ -172,7 +172,7 @@ class Verify(Verifying):
 
     def test_points_of_every_shipped_configuration_are_proved(self):
         others = sorted(set(SOURCE.glob("configs/*.toml")) - {SOURCE / f"configs/{name}.toml" for name in FIGURES})
-        sample = () if IS_LONG else ("--sample", "12")
+        sample = () if IS_LONG else ("--sample", "8")
         files = []
         for config in others:
             if config.stem.startswith("accuracy"):
@@ -193,7 +193,7 @@ class Verify(Verifying):
                 result = self.clatter("branch", config, "-q", "-o", "b.h5", "--force")
                 self.assertEqual(result.returncode, 0, result.stderr)
                 file = self.directory / f"{config.stem}.branch.jsonl"
-                certified(self.directory / "b.h5", file, *(() if IS_LONG else ("--sample", "30")))
+                certified(self.directory / "b.h5", file, *(() if IS_LONG else ("--sample", "15")))
                 undecided = 12 if config.stem == "soft_branch" else 0
                 # of special points with a loose mass there is no claim
                 self.assert_proved(verified(file), 25 if config.stem == "energy_sink_branch" else 30, undecided)
@@ -206,9 +206,9 @@ class Verify(Verifying):
             ("close", close_scenes(few, seed=45)),
             ("pressing", pressing_scenes(few, seed=46)),
             ("rough", rubbed_scenes(2 * few, seed=47)),
-            ("carrying", carrying_scenes(few if IS_LONG else 20, seed=48)),
-            ("beside_stops", carrying_scenes_beside_stops(few if IS_LONG else 30, seed=49)),
-            ("rubbing", rubbing_scenes(few if IS_LONG else 40, seed=50)),
+            ("carrying", carrying_scenes(few if IS_LONG else 10, seed=48)),
+            ("beside_stops", carrying_scenes_beside_stops(few if IS_LONG else 15, seed=49)),
+            ("rubbing", rubbing_scenes(few if IS_LONG else 20, seed=50)),
         ):
             for first in range(0, len(scenes), AT_ONCE):
                 self.prove_scenes(f"{name}_{first}", scenes[first : first + AT_ONCE])

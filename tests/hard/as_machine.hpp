@@ -25,6 +25,9 @@ namespace clatter::hard {
           .frequency = oscillator.frequency,
           .phase = start.phase,
           .load = oscillator.load,
+          .shape = static_cast<ForceShape>(oscillator.shape.waveform),
+          .duty = oscillator.shape.duty,
+          .rise = oscillator.shape.rise,
           .friction = friction.kinetic,
           .static_friction = friction.static_level,
           .lower = stops.lower,
@@ -55,6 +58,13 @@ namespace clatter::hard {
           .v = start.velocity,
           .z = loose.place,
           .w = loose.velocity};
+}
+
+/// The same scene under a force of another shape.
+[[nodiscard]] inline MachineScene with_shape(MachineScene scene, ForceShape shape, double duty = 0.5,
+                                             double rise = 0.25) {
+  scene.shape = shape, scene.duty = duty, scene.rise = rise;
+  return scene;
 }
 
 /// The same with each input moved by some roundings, z by those of y, and a mass with the stop or wall that it starts
@@ -104,6 +114,10 @@ namespace clatter::hard {
   for (Law* law : {&s.law_lower, &s.law_upper, &s.wall_law_lower, &s.wall_law_upper}) {
     for (double* value : {&law->exponent, &law->reference, &law->below, &law->unit}) nudge(*value);
     for (Law::Knot& knot : law->knots) nudge(knot.R), knot.R = std::min(1.0, knot.R);
+  }
+  if (given.shape != ForceShape::sine) {
+    nudge(s.duty), nudge(s.rise);
+    s.duty = std::min(1.0, s.duty), s.rise = std::min(0.5, s.rise);
   }
   return s;
 }

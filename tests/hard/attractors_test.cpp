@@ -211,7 +211,7 @@ void expect_no_other_motion(const Draw& draw, std::uint64_t count) {
   EXPECT_GT(by_newton, (to - from) / 4);
 }
 
-TEST(Attractors, no_shortcut_ends_on_another_motion_than_the_scene) { expect_no_other_motion(scene_number, 180); }
+TEST(Attractors, no_shortcut_ends_on_another_motion_than_the_scene) { expect_no_other_motion(scene_number, 100); }
 
 TEST(Attractors, no_shortcut_ends_on_another_motion_between_soft_stops) {
   expect_no_other_motion(soft_scene_number, 90);

@@ -55,11 +55,12 @@ TEST(Parameter, of_both_stops_sets_each_and_the_sign_of_a_distance_does_not_matt
   EXPECT_FALSE(Parameter("R").stands_for("stop_lower"));
 }
 
-TEST(Parameter, of_one_stop_or_a_load_breaks_symmetry) {
+TEST(Parameter, of_one_stop_a_load_or_a_part_of_the_force_breaks_symmetry) {
   for (const Parameter parameter : all_parameters) {
     const std::string key(parameter.key());
     const bool is_of_one = key.ends_with("_lower") || key.ends_with("_upper");
-    EXPECT_EQ(parameter.keeps_symmetry(), !is_of_one && key != "load" && key != "loose_load") << key;
+    const bool is_load = key == "load" || key == "loose_load", is_part = key == "force_duty" || key == "force_rise";
+    EXPECT_EQ(parameter.keeps_symmetry(), !is_of_one && !is_load && !is_part) << key;
   }
 }
 
@@ -102,7 +103,7 @@ GivenScene any_machine(support::Random& random) {
 /// The numbers of a computed scene.
 template <class Number>
 std::vector<Number> numbers_in(const BasicScene<Number>& scene) {
-  const auto& [h, f, nu, load, k] = scene.oscillator;
+  const auto& [h, f, nu, load, k, shape] = scene.oscillator;
   const auto& s = scene.stops;
   return {h,
           f,

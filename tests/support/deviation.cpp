@@ -140,6 +140,10 @@ std::string configuration_of(const point::Problem& s, double duration) {
       << "\nstiffness = " << s.oscillator.stiffness << "\nphase = " << s.start.phase
       << "\nx0 = " << s.start.displacement << "\nv0 = " << s.start.velocity << "\nstop_lower = " << s.stops.lower
       << "\nstop_upper = " << s.stops.upper;
+  const ForceShape& shape = s.oscillator.shape;
+  if (!shape.is_sine())
+    out << "\nforce_shape = \"" << force_shapes[static_cast<std::size_t>(shape.waveform)]
+        << "\"\nforce_duty = " << shape.duty << "\nforce_rise = " << shape.rise;
   const auto tell = [&](const Stops& stops, const char* soft, const char* rigid) {
     for (const bool upper : {false, true}) {
       const char* const which = upper ? "upper" : "lower";

@@ -10,7 +10,7 @@ namespace {
 
 template <class Number, Effects E>
 motion::Motion<Number> first_motion(const motion::ArcConstants<Number, E>& constants, const ArcStart& start) {
-  const auto [sine, cosine] = sine_cosine_of_turns(Number(start.turns));
+  const auto [sine, cosine] = constants.phase_at(Number(start.turns));
   const Number x(start.x), v(start.v);
   return {Number(0), x, v, constants.acceleration(x - constants.equilibrium, v, sine), sine, cosine};
 }
@@ -27,8 +27,8 @@ motion::Motion<Number> motion_after(const Oscillator& oscillator, const ArcStart
 
 template <class Number>
 motion::Motion<Number> motion_by_taylor(const Oscillator& o, const ArcStart& start, double s) {
-  const Oscillator away{o.damping, 1.0, 10.0, 0.0,
-                        o.stiffness};  // away from resonance: response and transient are separate
+  const Oscillator away{o.damping, 1.0,         10.0,
+                        0.0,       o.stiffness, o.shape};  // away from resonance: response and transient are separate
   return with_any_stops(away, [&]<Effects effects>() {
     const motion::ArcConstants<Number, effects.arc()> constants(o);
     const motion::Arc<Number, effects.arc()> arc(constants, first_motion(constants, start));

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "motion/event.hpp"
 #include "motion/soft_stop.hpp"
@@ -207,6 +208,7 @@ class Energy::Observer {
     const double constant = sign_of(rest.side) * constant_force_at(rest), force = std::abs(oscillator_.forcing);
     if (constant >= force) return pressing(rest, rest.time, rest.length);
     if (constant <= -force) return 0.0;
+    if (!oscillator_.shape.is_sine()) return pressing_in_piece(rest, constant);
     // the force is a sine of a phase that begins with it, and presses between two of its zeros
     const double begin = phase_ + oscillator_.frequency * rest.time +
                          (sign_of(rest.side) * oscillator_.forcing < 0 ? pi<double>() : 0.0),
@@ -220,6 +222,28 @@ class Energy::Observer {
     }
     return sum;
   }
+  /// The same of a force in pieces, of which a rest has one: between the instants at which the force changes sign.
+  [[nodiscard]] double pressing_in_piece(const motion::Event& rest, double constant) const {
+    const double period = period_of(oscillator_), begin = turns_at(rest.time), end = begin + rest.length / period;
+    std::array<double, 4> ends{begin, end, end, end};
+    std::size_t count = 1;
+    for (const bool rises : {false, true})
+      if (const auto zero =
+              phase_of_shape(oscillator_.shape, sign_of(rest.side) * oscillator_.forcing, -constant, rises)) {
+        const double at = *zero + std::ceil(begin - *zero);
+        if (at < end) ends[count++] = at;
+      }
+    ends[count] = end;
+    if (count == 3 && ends[2] < ends[1]) std::swap(ends[1], ends[2]);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i)
+      sum += std::max(0.0, pressing(rest, rest.time + (ends[i] - begin) * period, (ends[i + 1] - ends[i]) * period));
+    return sum;
+  }
+  /// The phase of the force, in turns.
+  [[nodiscard]] double turns_at(double time) const {
+    return phase_ / (2 * pi<double>()) + time / period_of(oscillator_);
+  }
   /// With the load of a loose mass that the one at rest carries, or with its friction.
   [[nodiscard]] double constant_force_at(const motion::Event& rest) const {
     return constant_force(oscillator_, rest.place) + rest.carried * loose_load_ + rest.rubbing;
@@ -227,7 +251,11 @@ class Energy::Observer {
   [[nodiscard]] double pressing(const motion::Event& rest, double time, double length) const {
     const Oscillator& o = oscillator_;
     double sum = constant_force_at(rest) * length;
-    if (o.forcing != 0) {
+    if (o.forcing != 0 && !o.shape.is_sine()) {
+      const double swing = swing_of(o.shape) * o.frequency * length / 2,
+                   s = shape_at(o.shape, turns_at(time + length / 2)).sine;
+      sum += o.forcing * s * length * (swing == 0 ? 1.0 : std::sin(swing) / swing);
+    } else if (o.forcing != 0) {
       const double half = o.frequency * length / 2;
       sum += 2 * o.forcing / o.frequency * std::sin(phase_ + o.frequency * time + half) * std::sin(half);
     }

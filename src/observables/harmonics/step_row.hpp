@@ -36,13 +36,12 @@ class StepRow {
 
   template <Effects E>
   void put(std::size_t i, const motion::ArcConstants<double, E>& constants, const motion::Step<double>& step) {
-    const auto of_sine = motion::change_by<double>(step.turn, {1.0, 0.0}),
-               of_cosine = motion::change_by<double>(step.turn, {0.0, 1.0});
+    const auto of_sine = constants.change(step.turn, {1.0, 0.0}), of_cosine = constants.change(step.turn, {0.0, 1.0});
     x_.sine[i] = constants.response_displacement(of_sine.sine, of_sine.cosine);
     x_.cosine[i] = constants.response_displacement(of_cosine.sine, of_cosine.cosine);
     v_.sine[i] = constants.response_velocity(1 + of_sine.sine, of_sine.cosine);
     v_.cosine[i] = constants.response_velocity(of_cosine.sine, 1 + of_cosine.cosine);
-    if constexpr (E.forcing == Forcing::secular) {
+    if (constants.forms_together()) {
       x_.sine[i] = constants.f * step.displacement.sine, x_.cosine[i] = constants.f * step.displacement.cosine;
       v_.sine[i] = constants.f * step.velocity.sine, v_.cosine[i] = constants.f * step.velocity.cosine;
     }

@@ -26,6 +26,19 @@ template <class Loop, class Number>
     }
   return in_section(loop, release_phase(loop.constants(), stop));
 }
+/// The knot of the force, in turns since the section, that releases a mass from where it is held; nothing: none does.
+template <class Loop, class Number>
+[[nodiscard]] std::optional<Number> releasing_knot(const Loop& loop, motion::State<Number> state) {
+  const auto is_held = [&](const Number& turns) {
+    state.phase_turns = turns;
+    return loop.holding_stop(state).has_value();
+  };
+  const Number shortly(1e-9);
+  Number knot = loop.next_knot(Number(-1));
+  for (; knot < 1; knot = loop.next_knot(knot))
+    if (is_held(Number(knot - shortly)) && !is_held(knot)) return knot;
+  return std::nullopt;
+}
 /// A release at a phase if it is ahead and not beyond `end`. Just behind it is now, to rounding.
 template <class Number>
 [[nodiscard]] std::optional<Number> upcoming(const std::optional<Number>& release, const Number& now,

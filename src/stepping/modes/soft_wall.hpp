@@ -83,7 +83,7 @@ class GuardsAtWall {
     for (std::size_t k = 0; k < force.size(); ++k) {
       force[k] += term * drive;
       term *= step_.constants().nu * step_.length() / static_cast<double>(k + 1);
-      const Number turn = -drive;
+      const Number turn = -step_.constants().curl() * drive;
       drive = next, next = turn;
     }
     force[0] += constant;
