@@ -74,6 +74,7 @@ inline void forget_places(std::span<SectionState> states) {
   if (has_loose_friction(scene.loose)) return true;
   if (!has_loose_mass(scene.loose) || scene.loose.load != 0) return false;
   if (has_events_of_its_own(scene)) return true;
+  if (!scene.oscillator.shape.is_sine()) return false;  // how far that reaches isn't known
   const PhasePoint response = response_at(scene.oscillator, 0.0, 1.0);
   const double reach = std::hypot(response.x, response.v / scene.oscillator.frequency);
   return 2 * reach < scene.loose.upper - scene.loose.lower;

@@ -30,6 +30,19 @@ template <class Number, Effects E>
   return bound + derived(Number(abs(c.unbalanced)), Number(2 * c.h), derivative) * span * span * square * square;
 }
 
+/// Of the response to a force in pieces, with k <= 0: it grows from rest to a velocity of at most |f| S span and a
+/// displacement of at most half of that times the span, times the growth of what departs.
+template <class Number, Effects E, std::size_t count>
+[[nodiscard]] Number response_sixth_bound(const ArcConstants<Number, E>& c,
+                                          const DerivativeBounds<Number, count>& bounds, const Motion<Number>& m,
+                                          const Number& span, int derivative) {
+  using std::abs, std::exp;
+  if (!c.is_in_pieces()) return Number(0);
+  const Number speed = abs(c.f) * c.most_of_shape(m, span).sine * span * exp(-c.slow * span);
+  const Number response = bounds.free[static_cast<std::size_t>(derivative)] * speed * (1 + c.natural * span / 2);
+  return times_sixth_power(Number(response + c.force_in_pieces(bounds, m, span, derivative)), span);
+}
+
 }  // namespace detail
 
 /// Bound of span^6 |y^(6)| from `m` on for a time `span`, for y = x (derivative 0), x' (1) or x'' (2, if `bounds` has
@@ -42,7 +55,7 @@ template <class Number, Effects E, std::size_t count>
   if constexpr (E.stiffness && E.damping == Damping::heavy)
     if (!(c.k > 0))
       return detail::unsprung_sixth_bound(c, m, span, derivative) +
-             times_sixth_power(c.force_in_pieces(bounds, m, span, derivative), span);
+             detail::response_sixth_bound(c, bounds, m, span, derivative);
   Number energy_norm = abs(m.free_x) + abs(m.free_v);
   if constexpr (E.stiffness) energy_norm = c.natural * abs(m.free_x) + abs(m.free_v);
   if (c.is_in_pieces())
@@ -55,7 +68,8 @@ template <class Number, Effects E, std::size_t count>
                  fast_part = derived(Number(abs(m.fast_x)), c.fast, derivative);
     const Number modal =
         times_sixth_power(slow_part, Number(c.slow * span)) + times_sixth_power(fast_part, Number(c.fast * span));
-    bound = select<Number>(modal < bound, modal, bound);  // root = 0: modal is infinite or NaN, so not taken
+    if (!c.is_in_pieces())  // in which free_x has the response, too, and fast_x isn't the fast mode of both
+      bound = select<Number>(modal < bound, modal, bound);  // root = 0: modal is infinite or NaN, so not taken
   }
   if constexpr (E.forcing == Forcing::regular)
     bound += times_sixth_power(derived(c.response.amplitude, c.nu, derivative), Number(c.nu * span));

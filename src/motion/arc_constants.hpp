@@ -97,8 +97,8 @@ class ArcConstants {
   [[nodiscard]] SineCosine<Number> phase_at(const Number& turns) const {
     return is_in_pieces() ? shape_at(shape, turns) : sine_cosine_of_turns(turns);
   }
-  /// Whether a motion is at a jump of the force, whose instant depends on nothing.
-  [[nodiscard]] bool is_after_jump(const Motion<Number>& m) const {
+  /// Whether only a jump of the force can let a mass go that friction holds there: its instant depends on no state.
+  [[nodiscard]] bool is_let_go_by_jump(const Motion<Number>& m) const {
     if (!is_in_pieces()) return false;
     return m.cosine == 0 || (shape.waveform == Waveform::sawtooth && m.sine == -1);
   }

@@ -37,12 +37,13 @@ class LooseTangent {
     const bool carries = constants.carried != 0;
     const bool is_held = constants.h == 0 && constants.k == 0 && constants.f == 0 && constants.load == 0;
     const double load = load_on(arc), a_loose = carries ? start.a : loose_acceleration(arc, 0.0);
-    if (is_rough_ && !std::exchange(is_told_, false)) change_hold(carries, load, is_held);
+    const bool jumps = constants.is_in_pieces() && std::abs(start.sine - end_.sine) > 1e-6;  // a jump is 1 or more
+    if (is_rough_ && !std::exchange(is_told_, false) && !jumps) change_hold(carries, load, is_held);
     settle(start.a, a_loose);
     if (sticks_ && !is_held)
-      release(
-          start.a, a_loose,
-          constants.is_after_jump(start) ? 0.0 : constants.spring(1.0) / (constants.f * constants.nu * start.cosine));
+      release(start.a, a_loose,
+              constants.is_let_go_by_jump(start) ? 0.0
+                                                 : constants.spring(1.0) / (constants.f * constants.nu * start.cosine));
     if constexpr (Housed<A>) on_wall_ = wall_of(arc.loose) != Side::none;
     const Row place = place_in_housing();
     flow(arc, length);
@@ -168,7 +169,7 @@ class LooseTangent {
   template <class A>
   void note_end(const A& arc, double length, bool is_held) {
     const auto end = arc.at(length);
-    end_ = {end.a, arc.constants().jerk(end), is_held};
+    end_ = {end.a, arc.constants().jerk(end), is_held, end.sine};
   }
   /// Friction in the housing stops the loose mass, or turns it, where z' falls to 0, and lets it go where x'' passes
   /// the level (eq. 81). A main mass that something holds goes as that turns, or lets the loose one go as it goes.
@@ -323,6 +324,7 @@ class LooseTangent {
   struct End {
     double a = 0, jerk = 0;
     bool is_held = false;  ///< something holds the main mass
+    double sine = 0;       ///< of the phase of the force
   } end_{};
 };
 

@@ -81,7 +81,7 @@ class Neighbourhood {
     double before, after, place;
   };
   /// Ends the proof if the force jumps at the beginning of an arc while some of the motions may not have had the last
-  /// impact, and notes the time of the jump, of the same reason.
+  /// impact, and notes when it jumped, since later impacts must be clear of that, too.
   template <class A>
   void note_jump(const A& arc, double duration) {
     if (!arc.constants().is_in_pieces()) return;

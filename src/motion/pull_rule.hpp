@@ -29,6 +29,7 @@ class PullRule : public SlopedRule<PullRule<Number, E>, Number> {
   [[nodiscard]] bool stays_clear(const Motion<Number>& here, const Number& time) const {
     using std::abs;
     const auto& c = arc_.constants();
+    if (!(c.k > 0)) return false;  // nothing bounds the speed of the transient
     const Number far = reach(c, here, time);
     const Number fast = c.nu * c.response.amplitude + c.natural * (far - c.response.amplitude);
     return abs(c.f) + abs(c.unbalanced) + abs(c.k) * far + 2 * c.h * fast < sign_ * load_;

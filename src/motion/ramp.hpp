@@ -18,7 +18,7 @@ struct Ramp {
 /// By the Taylor series of B; for times in which nothing decays or turns by more than 2.
 template <class Number>
 [[nodiscard]] Ramp<Number> ramp_by_series(const Number& h, const Number& k, const Number& s) {
-  constexpr int terms = std::numeric_limits<Number>::digits <= 64 ? 30 : 72;  // 4^terms / terms! is below rounding
+  constexpr int terms = std::numeric_limits<Number>::digits <= 64 ? 30 : 72;  // terms fall as n 2^n / n!
   const Number damping = 2 * h * s, spring = k * s * s;
   Number before(0), last = s, once = s / 2, twice = s / 6;  // before, last: two terms of B
   for (int n = 2; n < terms; ++n) {

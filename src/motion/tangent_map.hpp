@@ -92,7 +92,7 @@ class TangentMap {
     const auto& constants = arc.constants();
     const auto& start = arc.start();
     const Number later = constants.spring(Number(1)) / (constants.f * constants.nu * start.cosine);
-    if (start.a != 0 && !constants.is_after_jump(start))
+    if (start.a != 0 && !constants.is_let_go_by_jump(start))
       multiply({{Number(1), Number(0), -start.a * later, Number(1)}, Number(1)});
   }
 

@@ -23,7 +23,7 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Whether motion without stops reaches its final form: the steady response, free vibration, or standstill in time.
 bool comes_to_its_end(const point::Problem& scene, double time) {
   const Oscillator& o = scene.oscillator;
-  if (o.forcing != 0) return o.damping > 0;
+  if (o.forcing != 0) return o.damping > 0 && o.shape.is_sine();
   const double x = scene.start.displacement - equilibrium_of(o), v = scene.start.velocity;
   const double scale = std::max({std::abs(scene.start.displacement), std::abs(v), std::abs(equilibrium_of(o))});
   return o.damping == 0 || fading_time(o, {x, v}, scene.time.tolerance * scale) <= time;

@@ -15,9 +15,9 @@ inline namespace scene {
 /// The course of a force over its period: a sine, or one of pieces.
 enum class Waveform : std::uint8_t { sine, square, pulse, triangle, trapezoid, sawtooth, half_sine };
 
-inline constexpr std::array<std::string_view, 7> force_shapes{
-    ///< in the order of Waveform
-    "sine", "square", "pulse", "triangle", "trapezoid", "sawtooth", "half-sine"};
+/// Their names, in the order of Waveform.
+inline constexpr std::array<std::string_view, 7> force_shapes{"sine",      "square",   "pulse",    "triangle",
+                                                              "trapezoid", "sawtooth", "half-sine"};
 
 /// Whether a waveform has a first part, of a share of the period that can be chosen.
 [[nodiscard]] constexpr bool has_duty(Waveform waveform) {
@@ -113,7 +113,7 @@ template <class Number>
   return level - constant >= up && level + constant >= down;
 }
 
-/// How near to a knot a phase, in turns, is on it, to rounding.
+/// The distance from a knot, in turns, within which a phase is that of the knot, to rounding.
 template <class Number>
 [[nodiscard]] Number knot_rounding() {
   return 16 * epsilon<Number>();

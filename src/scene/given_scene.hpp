@@ -122,7 +122,7 @@ template <class Number, class Unit>
   const bool is_in_own_units = !given.is_si && units == BasicUnits<Unit>{};
   BasicScene<Number> scene = given;
   if (!is_in_own_units) scene = detail::in_units(given, units);
-  if (is_always_zero(scene.oscillator.forcing)) scene.oscillator.shape = {};  // of nothing
+  if (is_always_zero(scene.oscillator.forcing)) scene.oscillator.shape = {};  // there is no force
   const auto complete = [](const Number& kinetic, Number& static_level) {     // 0: the static level isn't given
     if (static_level < kinetic || is_always_zero(static_level)) static_level = kinetic;
   };

@@ -69,8 +69,7 @@ class CoupledSteps {
 
   [[nodiscard]] static SineCosine<double> phase(const motion::AnyConstants<double>& constants,
                                                 const motion::Motion<double>& start, double s) {
-    const SineCosine<double> change = constants.change(constants.turn(s), {start.sine, start.cosine});
-    return {start.sine + change.sine, start.cosine + change.cosine};
+    return constants.phase_after({start.sine, start.cosine}, s);
   }
 
   double tolerance_, size_;

@@ -140,6 +140,17 @@ class Relations(LooseMass):
             )
             np.testing.assert_array_equal(swept["x"][i], alone["x"])
 
+    def test_starts_have_no_mirror_images_under_pulses_though_the_first_point_has_no_force(self):
+        scene = {"h": 0.05, "nu": 0.9, "xs": 0.8, "R": 0.7, **shaped("pulse", 0.3)}
+        axes = {"f": [0.0, 0.6], "phase": [0.0, math.pi], "x0": [-0.3, 0.3], "v0": [-1.0, 1.0]}
+        swept = self.observed(scene, {"max_periods": 500}, {"extrema": True}, sweep=axes)
+        for index in np.ndindex(2, 2, 2, 2):
+            own = {key: values[i] for (key, values), i in zip(axes.items(), index)}
+            alone = self.observed(
+                {**scene, **own}, {"max_periods": 500}, {"extrema": True}, name="one", options=("--force",)
+            )
+            np.testing.assert_allclose(swept["x_max"][index], alone["x_max"], atol=1e-9, err_msg=str(own))
+
 
 BASE = "[scene]\nf = 1\nxs = 1\n"
 

@@ -172,7 +172,7 @@ class Verify(Verifying):
 
     def test_points_of_every_shipped_configuration_are_proved(self):
         others = sorted(set(SOURCE.glob("configs/*.toml")) - {SOURCE / f"configs/{name}.toml" for name in FIGURES})
-        sample = () if IS_LONG else ("--sample", "8")
+        sample = () if IS_LONG else ("--sample", "12")
         files = []
         for config in others:
             if config.stem.startswith("accuracy"):
@@ -193,7 +193,7 @@ class Verify(Verifying):
                 result = self.clatter("branch", config, "-q", "-o", "b.h5", "--force")
                 self.assertEqual(result.returncode, 0, result.stderr)
                 file = self.directory / f"{config.stem}.branch.jsonl"
-                certified(self.directory / "b.h5", file, *(() if IS_LONG else ("--sample", "15")))
+                certified(self.directory / "b.h5", file, *(() if IS_LONG else ("--sample", "30")))
                 undecided = 12 if config.stem == "soft_branch" else 0
                 # of special points with a loose mass there is no claim
                 self.assert_proved(verified(file), 25 if config.stem == "energy_sink_branch" else 30, undecided)
@@ -208,7 +208,7 @@ class Verify(Verifying):
             ("rough", rubbed_scenes(2 * few, seed=47)),
             ("carrying", carrying_scenes(few if IS_LONG else 10, seed=48)),
             ("beside_stops", carrying_scenes_beside_stops(few if IS_LONG else 15, seed=49)),
-            ("rubbing", rubbing_scenes(few if IS_LONG else 20, seed=50)),
+            ("rubbing", rubbing_scenes(few if IS_LONG else 40, seed=50)),
         ):
             for first in range(0, len(scenes), AT_ONCE):
                 self.prove_scenes(f"{name}_{first}", scenes[first : first + AT_ONCE])
