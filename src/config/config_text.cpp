@@ -5,7 +5,6 @@
 #include <type_traits>
 
 #include "config/consistency.hpp"
-#include "config/force_shape.hpp"
 #include "config/keys.hpp"
 #include "config/restitution.hpp"
 #include "config/settings.hpp"
@@ -77,9 +76,7 @@ bool is_of_force_shape(const Key& key) {
 
 /// Whether the default of a key belongs in the text: not if its alternative was given.
 bool default_counts(const Settings& settings, const Key& key) {
-  if (key.name == "force_duty") return has_duty(waveform_of(settings));
-  if (key.name == "force_rise") return waveform_of(settings) == Waveform::trapezoid;
-  if (key.name == "force_shape") return false;
+  if (is_of_force_shape(key)) return false;
   if (is_excluded(settings, key) || is_damped_otherwise(settings, key)) return false;
   if (is_of_loose_mass(key) && !has_loose_mass(settings)) return false;
   const bool has_soft_wall =

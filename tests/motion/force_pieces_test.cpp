@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "math/fifty_digits.hpp"
+#include "motion/arc.hpp"
 #include "motion/arc_bounds.hpp"
 #include "motion/contact_force.hpp"
 #include "support/motion.hpp"
