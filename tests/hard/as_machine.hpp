@@ -60,13 +60,6 @@ namespace clatter::hard {
           .w = loose.velocity};
 }
 
-/// The same scene under a force of another shape.
-[[nodiscard]] inline MachineScene with_shape(MachineScene scene, ForceShape shape, double duty = 0.5,
-                                             double rise = 0.25) {
-  scene.shape = shape, scene.duty = duty, scene.rise = rise;
-  return scene;
-}
-
 /// The same with each input moved by some roundings, z by those of y, and a mass with the stop or wall that it starts
 /// on. Signs are drawn, but friction rises against the force or falls.
 [[nodiscard]] inline MachineScene moved(const AnyScene& any, std::uint64_t way, double roundings,
