@@ -135,6 +135,19 @@ class Results(LooseMass):
             again = self.run_clatter(file.attrs["config"], "again")
         self.assertEqual(one.read_bytes(), again.read_bytes())
 
+    def test_masses_that_friction_lets_go_as_one_from_a_soft_wall_share_the_jump_of_the_force(self):
+        """They gain the momentum that the force gives less the kinetic friction, though they part at once."""
+        scene = {"h": 0.0, "stiffness": 0.0, "f": -1.0, "friction": 0.3, "friction_static": 0.4}
+        scene |= {"loose_mass": 0.5, "loose_lower": -0.2, "loose_upper": 0.2, "loose_wall_stiffness_lower": 40.0}
+        release, time = math.asin(0.4), 0.2
+        gained = math.cos(release) - math.cos(release + time) - 0.3 * time
+        for depth in (0.0005, 0.0002):
+            own = {**scene, "loose_x0": -0.2 - depth, "loose_friction": 0.03}
+            data = self.transient(own, release + time, 2)
+            self.assertGreater(abs(data["w"][-1]), 1e-4)
+            momentum = data["v"][-1] + 0.5 * (data["v"][-1] + data["w"][-1])
+            self.assertAlmostEqual(momentum, -gained, delta=1e-13)
+
     def test_a_start_may_lie_beyond_a_soft_wall(self):
         data = self.observed(self.SCENE | {"loose_x0": 0.7}, self.TIME, {"trajectory": 5})
         self.assertEqual(data["z"][0], 0.7)

@@ -127,8 +127,8 @@ template <class Loop, class State, class Constants, class Number>
   const Number push = walls.push(state.loose), &ratio = walls.rule.ratio;
   if (state.loose.released)
     start.a -= push * ((1 + ratio) / ratio);  // both accelerations differ by a jump alone
-  else if (state.released)
-    start.a -= push;  // which is among the forces that let it go
+  else if (state.released && !(walls.is_rough() && state.loose.speed == 0))
+    start.a -= push;  // which is among the forces that let it go, but between two that were let go as one
   const motion::Coupling<Number> coupling{walls.soft[index_of(state.loose.wall)], ratio, state.loose.pushed, is_held};
   return loop.method().couple(constants, coupling, start, anchor, loose_start_of(loop, state), walls.load, horizon);
 }
