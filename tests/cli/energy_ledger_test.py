@@ -83,6 +83,15 @@ class Ledger(RunTest):
                 expected = ratio / (1 + ratio) * (1 + 0.8) * speeds.sum()
                 self.assertAlmostEqual(impulse, expected, delta=1e-14 * expected)
 
+    def test_a_held_mass_that_its_loose_one_strikes_at_the_start_begins_with_what_that_gives_it(self):
+        for n, held in enumerate(({"friction": 0.5}, {"stop_upper": 0.0, "R_upper": 0.0})):
+            scene = {"stiffness": 0, "load": 0.4, "loose_mass": 0.5, "loose_lower": -1, "loose_upper": 0.2, **held}
+            scene |= {"loose_R_lower": 0.5, "loose_R_upper": 0.4, "loose_x0": 0.2, "loose_v0": 0.3}
+            away = -1 if "stop_upper" in held else 1
+            scene |= {"loose_lower": -0.2, "loose_x0": -0.2, "loose_v0": -0.3} if away < 0 else {}
+            found = self.values(scene, 0.3, f"struck{n}")
+            self.assertLess(abs(found["energy_residual"]), 1e-15, scene)
+
     def test_the_energy_of_a_mass_that_is_pressed_onto_a_soft_stop(self):
         """The residual is rounding of what the force gives and takes, of which the work is what doesn't come back."""
         draw, scenes = random.Random(12), []

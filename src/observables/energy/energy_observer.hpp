@@ -42,6 +42,7 @@ class Energy::Observer {
     if (loose_) return loose_->event(event);
     if (share_ && share_->event(event)) return;
     if (!event.lasts() && event.kind != motion::Event::Kind::impact) return;
+    if (event.lasts() && event.length == 0 && event.before == 0) return;  // a loose mass strikes the held one at once
     see(Place(event.place), event.before);
     if (event.is_stick()) return press(event);
     const std::size_t stop = index_of(event.side);
@@ -228,8 +229,8 @@ class Energy::Observer {
     std::array<double, 4> ends{begin, end, end, end};
     std::size_t count = 1;
     for (const bool rises : {false, true})
-      if (const auto zero =
-              phase_of_shape(oscillator_.shape, sign_of(rest.side) * oscillator_.forcing, -constant, rises)) {
+      if (const auto zero = phase_of_shape(oscillator_.shape, sign_of(rest.side) * oscillator_.forcing, -constant,
+                                           rises, begin + rest.length / period / 2)) {
         const double at = *zero + std::ceil(begin - *zero);
         if (at < end) ends[count++] = at;
       }
