@@ -56,6 +56,11 @@ for shape in square sine; do
 done
 "$source_dir/scripts/plot.py" "$work"/{square,sine}.h5 --only impact_speed --size 6x3.8 --format svg -o "$work"
 mv "$work/square+sine.svg" "$out/square_drive.svg"
+"$clatter" run "$source_dir/configs/feeder.toml" -o "$work/feeder.h5" -q
+"$clatter" run "$source_dir/configs/feeder.toml" --set machine.force='6 N' --set machine.phase='-90 deg' \
+  --set machine.load='4.5 N' -o "$work/first_order.h5" -q
+"$source_dir/scripts/plot.py" "$work"/{feeder,first_order}.h5 --only x_max --size 6x3.8 --format svg -o "$work"
+mv "$work/feeder+first_order.svg" "$out/feeder.svg"
 for R in 0.92 0.75; do
   "$clatter" run "$source_dir/configs/measured_stop.toml" --set machine.R=$R -o "$work/$R.h5" -q
 done

@@ -6,7 +6,7 @@ if(TARGET clatter-verify)
   install(TARGETS clatter-verify RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-file(GLOB configs CONFIGURE_DEPENDS configs/*.toml configs/*.ini)
+file(GLOB configs CONFIGURE_DEPENDS configs/*.toml configs/*.ini configs/*.csv)
 install(FILES ${configs} DESTINATION ${share}/configs)
 
 install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/ DESTINATION ${CMAKE_INSTALL_DATADIR})

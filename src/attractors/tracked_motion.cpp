@@ -25,7 +25,7 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
   o.damping = mix(a.damping, b.damping), o.forcing = mix(a.forcing, b.forcing);
   o.frequency = mix(a.frequency, b.frequency), o.load = mix(a.load, b.load);
   o.stiffness = mix(a.stiffness, b.stiffness);
-  o.shape = {b.shape.waveform, mix(a.shape.duty, b.shape.duty), mix(a.shape.rise, b.shape.rise)};
+  o.shape = {b.shape.waveform, mix(a.shape.duty, b.shape.duty), mix(a.shape.rise, b.shape.rise), b.shape.table};
   problem.friction = {mix(from.friction.kinetic, to.friction.kinetic),
                       mix(from.friction.static_level, to.friction.static_level)};
   problem.stops = {mix(from.stops.lower, to.stops.lower),

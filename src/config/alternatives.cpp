@@ -4,6 +4,7 @@
 #include <string>
 
 #include "config/consistency.hpp"
+#include "config/force_table.hpp"
 #include "config/restitution.hpp"
 #include "config/suggestion.hpp"
 
@@ -44,6 +45,10 @@ void check_machine(const Settings& settings) {
         given != nullptr && settings.given("frequency") == nullptr)
       fail(given->key_location,
            in_quotes(given->key->name) + " without 'frequency'; add it to [machine] in Hz, or as e.g. \"25 Hz\"");
+  if (const Setting* const table = settings.find("machine", "force_table");
+      table != nullptr && settings.given("frequency") == nullptr)
+    fail(table->key_location,
+         in_quotes("force_table") + " without 'frequency', to whose period it is stretched; add it to [machine] in Hz");
   for (const Parameter needs_spring : std::array<Parameter, 2>{"damping_ratio", "quality"})
     if (const Setting* const given = settings.given(needs_spring); given != nullptr && lacks_spring(settings))
       fail(given->key_location, in_quotes(given->key->name) +
@@ -70,6 +75,9 @@ void check_start_period(const Settings& settings) {
   for (const Parameter parameter : std::array<Parameter, 3>{"R", "R_lower", "R_upper"}) demand(parameter, 1);
   for (const Parameter parameter : std::array<Parameter, 3>{"R_below", "R_below_lower", "R_below_upper"})
     demand(parameter, 0);
+  if (has_force_table(settings))
+    fail(start->key_location,
+         "'start_period' beside 'force_table'; it is of motion without a force: leave out one of them");
   if (has_speed_table(settings, "R"))
     fail(start->key_location, "'start_period' beside a restitution by speed; give x0 and v0 in its place");
   for (const Parameter parameter :

@@ -26,7 +26,7 @@ struct Config : results::FileHead {
   sweep::Sweep sweep;
   std::optional<branches::BranchSettings> branch{};  ///< if the text has [branch]
   std::vector<Warning> warnings;
-  std::vector<std::string> notes;  ///< settings of the file that the command line replaced by other keys
+  std::vector<std::string> notes;  ///< settings that the command line replaced, and a stretched force
 };
 
 /// A --set KEY=VALUE of the command line, e.g. {"sweep.nu", "linspace(0.5, 1.5, 51)"}.

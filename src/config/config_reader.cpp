@@ -8,6 +8,7 @@
 #include "config/config_text.hpp"
 #include "config/consistency.hpp"
 #include "config/force_shape.hpp"
+#include "config/force_table.hpp"
 #include "config/parsed_config.hpp"
 #include "config/restitution.hpp"
 #include "config/settings.hpp"
@@ -235,7 +236,7 @@ std::optional<branches::BranchSettings> branch_settings_of(const Settings& setti
   for (const auto* const list : {&settings.values, &settings.axes}) {
     for (const Setting& setting : *list) {
       const std::size_t length = toml_value(setting).size();
-      if (length <= longest) continue;
+      if (length <= longest || setting.key->name == "force_table") continue;
       longest = length, location = setting.key_location, name = setting.key->name;
       way_out = setting.is_axis() ? "write it as a function, e.g. linspace(a, b, n)" : "shorten it";
     }
@@ -247,6 +248,7 @@ std::optional<branches::BranchSettings> branch_settings_of(const Settings& setti
 Config config_of(ParsedConfig parsed) {
   Settings settings = check_keys(std::move(parsed));
   let_command_line_win(settings);
+  read_force_table(settings);
   check_loose_mass(settings);
   check_alternatives(settings);
   spread_sobol(settings);
@@ -254,6 +256,7 @@ Config config_of(ParsedConfig parsed) {
   check_housing(settings, groups);
   check_soft_walls(settings, groups);
   check_restitutions(settings, groups);
+  check_force_table(settings);
   check_force_shape(settings);
   check_stops_and_start(settings, groups);
   check_soft_stops(settings, groups);
@@ -261,7 +264,9 @@ Config config_of(ParsedConfig parsed) {
   Config config;
   config.title = settings.text("", "title"), config.source = settings.text("", "source");
   config.text = config_text(settings);
-  if (config.text.size() > max_config_bytes) refuse_long(settings);
+  if (config.text.size() > max_config_bytes + bytes_of_force_table(settings)) refuse_long(settings);
+  config.comment = stretch_of_force(settings);
+  if (!config.comment.empty()) config.notes.push_back(config.comment);
   for (const Replaced& replaced : settings.replaced)
     if (!replaced.is_surplus) config.notes.push_back(to_string(replaced));
   config.warnings = warnings_of(settings, groups);

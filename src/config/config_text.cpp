@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "config/consistency.hpp"
+#include "config/force_table.hpp"
 #include "config/keys.hpp"
 #include "config/restitution.hpp"
 #include "config/settings.hpp"
@@ -71,12 +72,14 @@ bool is_law_of_speed(const Key& key) {
 /// Whether a key is of a force in pieces.
 bool is_of_force_shape(const Key& key) {
   const auto parameter = describes_scene(key.section) ? Parameter::of(key.name) : std::nullopt;
-  return key.name == "force_shape" || (parameter && parameter->role() == Role::force_shape);
+  return key.name == "force_shape" || key.name == "force_table" ||
+         (parameter && parameter->role() == Role::force_shape);
 }
 
 /// Whether the default of a key belongs in the text: not if its alternative was given.
 bool default_counts(const Settings& settings, const Key& key) {
   if (is_of_force_shape(key)) return false;
+  if ((key.name == "f" || key.name == "force") && has_force_table(settings)) return false;
   if (is_excluded(settings, key) || is_damped_otherwise(settings, key)) return false;
   if (is_of_loose_mass(key) && !has_loose_mass(settings)) return false;
   const bool has_soft_wall =
@@ -141,6 +144,15 @@ bool is_used(const Key& key) {
          (key.has_default() || key.name == "xs");
 }
 
+/// Rows of a measured force, as lines if they are plain text.
+std::string toml_rows(const std::string& rows) {
+  const auto is_plain = [](char c) {
+    return c == '\n' || c == '\t' || (static_cast<unsigned char>(c) >= 0x20 && c != 0x7F);
+  };
+  const bool are_lines = rows.ends_with('\n') && rows.find('\'') == std::string::npos;
+  return are_lines && std::ranges::all_of(rows, is_plain) ? "'''\n" + rows + "'''" : toml_text(rows);
+}
+
 /// One key of the commented configuration below its meaning.
 std::string commented(const Key& key, Format format) {
   const std::string mark = format == Format::toml ? "#" : ";";
@@ -155,7 +167,8 @@ std::string toml_value(const Setting& setting) {
   const bool has_other = setting.quantity != Quantity::number && setting.quantity != setting.key->quantity;
   const auto text = [&](const auto& value) -> std::string {
     using Type = std::decay_t<decltype(value)>;
-    if constexpr (std::is_same_v<Type, std::string>) return toml_text(value);
+    if constexpr (std::is_same_v<Type, std::string>)
+      return setting.key->name == "force_table" ? toml_rows(value) : toml_text(value);
     if constexpr (std::is_same_v<Type, double>)
       return has_other ? toml_measure(value, unit_of_numbers(setting.quantity)) : toml_number(value);
     if constexpr (std::is_same_v<Type, std::int64_t>) return std::to_string(value);

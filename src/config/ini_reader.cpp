@@ -110,7 +110,8 @@ class IniScanner {
     const bool free_text = is_free_text(parsed_.sections.empty() ? "" : parsed_.sections.back().name, key);
     for (std::size_t at = value.begin; at < value.end; ++at) {
       const bool after_blank = blanks.find(value.line[at - 1]) != std::string_view::npos;
-      const bool begins_comment = value.line[at] == ';' || value.line[at] == '#';
+      const bool parts_rows = value.line[at] == ';' && key == "force_table";
+      const bool begins_comment = (value.line[at] == ';' && !parts_rows) || value.line[at] == '#';
       if (begins_comment && (after_blank || !free_text)) value.end = at;  // a title may hold "a;b"
     }
     return trimmed(value);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "branches/settings.hpp"
+#include "config/force_keys.hpp"
 #include "config/suggestion.hpp"
 #include "config/unit.hpp"
 #include "config/value_grammar.hpp"
@@ -100,18 +101,7 @@ Key key_of(const TableKey& table, Parameter restitution, bool is_si) {
   return key;
 }
 
-/// The shape of the force.
-Key shape_key(bool is_si) {
-  Key key = one_of(force_shapes,
-                   Key{is_si ? "machine" : "scene", "force_shape", choice, "sine", "square",
-                       "course of the force over its period. square: f, then -f; pulse: f, then 0; triangle: straight "
-                       "lines between the zeros and peaks of the sine; trapezoid: steeper ones, cut at the peaks; "
-                       "sawtooth: a straight line from -f to f; half-sine: one half wave, then 0"});
-  key.beside = (is_si ? Parameter("phase").row().in_machine : Parameter("phase").row().in_scene).beside;
-  return key;
-}
-
-/// The keys along which a motion can be followed: none is the friction of a loose mass.
+/// The keys along which a motion can be followed: none is the friction of a loose mass, or of a force in pieces.
 std::vector<std::string_view> keys_to_follow() {
   std::vector<std::string_view> keys;
   for (const Parameter parameter : all_parameters) {
@@ -217,9 +207,9 @@ const std::array keys_after_observe{
 };
 
 /// The key of a parameter, behind the restitution of a stop its tables by speed, and before the shares of the parts of
-/// a force its shape.
+/// a force its shape and its table.
 void add_scene_key(Parameter parameter, bool is_si, std::vector<Key>& keys) {
-  if (parameter == "force_duty") keys.push_back(shape_key(is_si));
+  if (parameter == "force_duty") keys.push_back(force_shape_key(is_si)), keys.push_back(force_table_key(is_si));
   keys.push_back(key_of(parameter, is_si));
   for (const TableKey& table : keys_of_tables)
     if (table.restitution == parameter.key()) keys.push_back(key_of(table, parameter, is_si));

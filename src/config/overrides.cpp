@@ -7,6 +7,7 @@
 
 #include "config/config.hpp"
 #include "config/consistency.hpp"
+#include "config/force_table.hpp"
 #include "config/parsed_config.hpp"
 #include "config/restitution.hpp"
 #include "config/suggestion.hpp"
@@ -253,6 +254,7 @@ void let_command_line_win(Settings& settings) {
     if (upper) let_soft_stop_or_restitution_win(settings, keys, Side::upper);
   }
   let_speed_table_or_restitution_win(settings);
+  let_force_table_or_force_win(settings);
   for (const Parameter one : dampings)
     for (const Parameter other : dampings)
       if (one.index() < other.index()) exclude(settings, one, other);

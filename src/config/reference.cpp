@@ -31,7 +31,8 @@ constexpr std::string_view about_values = R"text(Values, in TOML, in INI and aft
 In TOML the functions stand in quotes: nu = "linspace(0.5, 1.5, 501)". In INI
 quotes around a value are dropped, comments begin with ; or #, and a title or
 source that holds one of them after a blank needs quotes. An axis has at most
-10 million values, a sweep 1000 million points, a configuration 1 MiB.
+10 million values, a sweep 1000 million points, a configuration 1 MiB
+beside the rows of a measured force.
 )text";
 
 /// The default in words.

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "config/consistency.hpp"
+#include "config/force_shape.hpp"
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
 
@@ -23,8 +24,8 @@ std::vector<std::string_view> keys_of_motion(const Settings& settings) {
   const bool is_housed = has_loose_mass(settings);
   for (const Parameter parameter : all_parameters) {
     const bool is_its = is_housed ? is_of_housed(settings, parameter) : !parameter.is_loose();
-    const bool is_of_motion = parameter.role() != Role::start && parameter.role() != Role::force_shape;
-    if (parameter.is_in(settings.scene_section) && is_of_motion && is_its && !parameter.row().is_with_unit)
+    if (parameter.is_in(settings.scene_section) && parameter.role() != Role::start && is_its &&
+        !parameter.row().is_with_unit)
       names.push_back(parameter.key());
   }
   return names;
@@ -38,9 +39,6 @@ void check_name(const Settings& settings, const Setting& names, const std::strin
   const std::optional<Parameter> parameter = Parameter::of(name);
   if (parameter && parameter->role() == Role::start)
     fail(names.location, message + ", a start, which steady motion doesn't depend on; leave it out");
-  if (parameter && parameter->role() == Role::force_shape)
-    fail(names.location,
-         message + ", of a force in pieces, by which steady motion has no derivative so far; leave it out");
   if (parameter && has_loose_mass(settings) && !is_of_housed(settings, *parameter))
     fail(names.location, message + ", which conflicts with 'loose_mass'; leave it out");
   if (parameter && !counterpart_of(name).empty())
@@ -60,6 +58,15 @@ void check_given(const Settings& settings, const Setting& names, Parameter key) 
     fail(names.location,
          message + (key.is_loose() ? ", and the walls are given one by one; name 'loose_lower' or 'loose_upper'"
                                    : ", and the stops are given one by one; name 'stop_lower' or 'stop_upper'"));
+  const Waveform waveform = waveform_of(settings);
+  if ((key == "f" || key == "force") && waveform == Waveform::table)
+    fail(names.location, message + ", and the force is given by 'force_table'; name 'force_factor'");
+  if (key.role() == Role::shaking && waveform != Waveform::sine)
+    fail(names.location,
+         message + ", and what is shaken moves as a sine, so far beside a force that is one; leave it out");
+  if ((key == "force_factor" && waveform != Waveform::table) || (key == "force_duty" && !has_duty(waveform)) ||
+      (key == "force_rise" && waveform != Waveform::trapezoid))
+    fail(names.location, message + ", which this force doesn't have; leave it out");
   if (key == "quality" && !quantity_given(settings, key))
     fail(names.location, message + ", and the damping isn't given by it; name 'damping' or 'damping_ratio'");
   for (const std::string kinetic : {"friction", "loose_friction"})

@@ -32,7 +32,7 @@ bool is_control(std::string_view text) {
 std::string read_pieces(int file, const std::string& name) {
   std::string text;
   std::array<char, std::size_t{16} * 1024> piece;
-  while (text.size() <= max_config_bytes) {
+  while (text.size() <= max_table_bytes + max_config_bytes) {
     const ssize_t count = storage::uninterrupted([&] { return ::read(file, piece.data(), piece.size()); });
     if (count < 0) unreadable(name, storage::reason_and_way_out(errno, ""));
     if (count == 0) break;
@@ -41,15 +41,31 @@ std::string read_pieces(int file, const std::string& name) {
   return text;
 }
 
-/// Checks that the bytes of a configuration are text, and returns it.
-std::string as_text(const std::string& name, std::string bytes) {
+std::string bytes_of(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) unreadable(path, "it is a directory; name a file");
+  const storage::Descriptor file{storage::uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); })};
+  if (file.number() < 0) unreadable(path, storage::reason_and_way_out(errno, ""));
+  return read_pieces(file.number(), path);
+}
+
+/// Checks that the bytes of a file are text, and returns it.
+std::string as_text(const std::string& name, std::string bytes, std::size_t max_bytes) {
   if (bytes.starts_with("\x89HDF"))
     unreadable(name, "it is an HDF5 file; `clatter info --config` prints the configuration of an output");
-  if (bytes.find('\0') != std::string::npos) unreadable(name, "it holds NUL bytes; a configuration is UTF-8 text");
-  if (bytes.size() > max_config_bytes)
-    fail({name, 1, 1}, "more than 1 MiB; write long lists as functions, e.g. linspace(a, b, n)");
+  if (bytes.find('\0') != std::string::npos) unreadable(name, "it holds NUL bytes; expected UTF-8 text");
+  if (bytes.size() > max_bytes)
+    fail({name, 1, 1}, max_bytes == max_config_bytes
+                           ? "more than 1 MiB; write long lists as functions, e.g. linspace(a, b, n)"
+                           : "more than 8 MiB; a force is measured well with fewer rows, or fewer digits");
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
   return bytes;
+}
+
+/// The same of a configuration, which is longer with a table in it.
+std::string as_configuration(const std::string& name, std::string bytes) {
+  const bool has_table = bytes.find("force_table") != std::string::npos;
+  return as_text(name, std::move(bytes), has_table ? max_table_bytes + max_config_bytes : max_config_bytes);
 }
 
 }  // namespace
@@ -60,15 +76,13 @@ bool has_ending(std::string_view name, std::string_view ending) {
                     [](char left, char right) { return left == std::tolower(static_cast<unsigned char>(right)); });
 }
 
-std::string read_text(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) unreadable(path, "it is a directory; name a file");
-  const storage::Descriptor file{storage::uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); })};
-  if (file.number() < 0) unreadable(path, storage::reason_and_way_out(errno, ""));
-  return as_text(path, read_pieces(file.number(), path));
-}
+std::string read_text(const std::string& path) { return as_configuration(path, bytes_of(path)); }
 
-std::string read_standard_input(const std::string& name) { return as_text(name, read_pieces(STDIN_FILENO, name)); }
+std::string read_table(const std::string& path) { return as_text(path, bytes_of(path), max_table_bytes); }
+
+std::string read_standard_input(const std::string& name) {
+  return as_configuration(name, read_pieces(STDIN_FILENO, name));
+}
 
 SourceLocation location_of(const std::string& file, std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);

@@ -9,12 +9,16 @@ namespace clatter::config {
 
 /// The size of the largest configuration that is read.
 inline constexpr std::size_t max_config_bytes = std::size_t{1} << 20;
+/// Beside the rows of a measured force, which may have as many.
+inline constexpr std::size_t max_table_bytes = std::size_t{8} << 20;
 
 /// Whether the name of a file has an ending, in any case; `ending` is in lower case.
 [[nodiscard]] bool has_ending(std::string_view name, std::string_view ending);
 
 /// The whole file, without a byte-order mark. Throws IoError if it cannot be read or isn't text.
 [[nodiscard]] std::string read_text(const std::string& path);
+/// The same of a file with the rows of a measured force.
+[[nodiscard]] std::string read_table(const std::string& path);
 
 /// All of standard input, likewise; errors call it `name`.
 [[nodiscard]] std::string read_standard_input(const std::string& name);

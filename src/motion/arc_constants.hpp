@@ -100,7 +100,7 @@ class ArcConstants {
   /// Whether only a jump of the force can let a mass go that friction holds there: its instant depends on no state.
   [[nodiscard]] bool is_let_go_by_jump(const Motion<Number>& m) const {
     if (!is_in_pieces()) return false;
-    return m.cosine == 0 || (shape.waveform == Waveform::sawtooth && m.sine == -1);
+    return m.cosine == 0 || jumps_to(shape, m.sine);
   }
   /// Largest |ds/dtheta| of the force.
   [[nodiscard]] Number steepest() const { return is_in_pieces() ? steepest_of(shape) : Number(1); }

@@ -53,13 +53,13 @@ template <class Number, Effects E>
 }
 
 /// Forcing phase, in turns 0 ... 1, at which f sin(theta) passes a value, on its way to a side; nothing if it never
-/// does, or only touches it.
+/// does, or only touches it. Of a force in pieces within that of the phase `from`.
 template <class Number, Effects E>
 [[nodiscard]] std::optional<Number> phase_of_force(const ArcConstants<Number, E>& constants, const Number& needed,
-                                                   Side side) {
+                                                   Side side, const Number& from) {
   using std::abs, std::atan2, std::sqrt;
   const Number& f = constants.f;
-  if (constants.is_in_pieces()) return phase_of_shape(constants.shape, f, needed, side == Side::upper);
+  if (constants.is_in_pieces()) return phase_of_shape(constants.shape, f, needed, side == Side::upper, from);
   if (E.forcing == Forcing::none || !(abs(needed) < abs(f))) return std::nullopt;
   // |cos(theta)|, over |f| so that no square vanishes
   const Number size = abs(f), along = sqrt((size - needed) / size * ((size + needed) / size));
@@ -69,10 +69,11 @@ template <class Number, Effects E>
 }
 
 /// Forcing phase, in turns 0 ... 1, at which a stop releases a pressed mass (eq. 26); nothing if the pressing force
-/// never falls to 0, or only touches it.
+/// never falls to 0, or only touches it. Of a force in pieces within that of the phase `from`.
 template <class Number, Effects E>
-[[nodiscard]] std::optional<Number> release_phase(const ArcConstants<Number, E>& constants, const Stop<Number>& stop) {
-  return phase_of_force(constants, Number(constants.spring(stop.position) - constants.load), opposite(stop.side));
+[[nodiscard]] std::optional<Number> release_phase(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
+                                                  const Number& from = Number(0)) {
+  return phase_of_force(constants, Number(constants.spring(stop.position) - constants.load), opposite(stop.side), from);
 }
 
 }  // namespace clatter::motion

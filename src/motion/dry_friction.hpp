@@ -27,11 +27,13 @@ struct Holding {
     return holds_against(Side::lower, constants, phase) && holds_against(Side::upper, constants, phase);
   }
 
-  /// Phase in turns, 0 ... 1, at which it is let go towards a side; nothing if it never is (eq. 26 with the level).
+  /// Phase in turns, 0 ... 1, at which it is let go towards a side; nothing if it never is (eq. 26 with the level). Of
+  /// a force in pieces within that of the phase `from`.
   template <Effects E>
-  [[nodiscard]] std::optional<Number> release_phase(const ArcConstants<Number, E>& constants, Side side) const {
+  [[nodiscard]] std::optional<Number> release_phase(const ArcConstants<Number, E>& constants, Side side,
+                                                    const Number& from = Number(0)) const {
     if (!may_go(side)) return std::nullopt;
-    return phase_of_force(constants, Number(sign_of(side) * level - constant), side);
+    return phase_of_force(constants, Number(sign_of(side) * level - constant), side, from);
   }
 
  private:

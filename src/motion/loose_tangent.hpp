@@ -37,7 +37,8 @@ class LooseTangent {
     const bool carries = constants.carried != 0;
     const bool is_held = constants.h == 0 && constants.k == 0 && constants.f == 0 && constants.load == 0;
     const double load = load_on(arc), a_loose = carries ? start.a : loose_acceleration(arc, 0.0);
-    const bool jumps = constants.is_in_pieces() && std::abs(start.sine - end_.sine) > 1e-6;  // a jump is 1 or more
+    const bool jumps =
+        constants.is_in_pieces() && std::abs(start.sine - end_.sine) > 1e-6;  // of a table hardly ever less
     if (is_rough_ && !std::exchange(is_told_, false) && !jumps) change_hold(carries, load, is_held);
     settle(start.a, a_loose);
     if (sticks_ && !is_held)

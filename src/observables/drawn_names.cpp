@@ -33,6 +33,7 @@ constexpr NamedVariable names[] = {
     {"R_upper", {"restitution, upper stop", "$R_+$"}, Name{"", "R_upper"}},
     {"force_duty", {"share of the first part of the force", "$d$"}, Name{"", "force_duty"}},
     {"force_rise", {"share of the rise of the force", "$r$"}, Name{"", "force_rise"}},
+    {"force_factor", {"factor of the measured force", "$c_f$"}, Name{"", "force_factor"}},
     {"R_exponent", {"exponent of the restitution", "$p$"}, Name{"", "R_exponent"}},
     {"R_reference_speed", {"reference speed of the restitution", "$V$"}, Name{"", "R_reference_speed"}},
     {"R_below", {"least speed of a rebound", "$v_{r}$"}, Name{"", "R_below"}},

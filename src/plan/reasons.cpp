@@ -63,7 +63,10 @@ Reason forcing_reason(const Oscillator& oscillator) {
   if (oscillator.forcing == 0) return {"forcing", false, "f = 0: no forcing"};
   const ForceShape& shape = oscillator.shape;
   std::string said = "f = " + text(oscillator.forcing);
-  if (!shape.is_sine()) said += ", " + std::string(force_shapes[static_cast<std::size_t>(shape.waveform)]);
+  if (shape.table != nullptr)
+    said += ", by a table of " + std::to_string(shape.table->knots().size()) + " straight lines";
+  else if (!shape.is_sine())
+    said += ", " + std::string(force_shapes[static_cast<std::size_t>(shape.waveform)]);
   if (const double mean = mean_of(shape); mean != 0) said += " with the mean " + text(oscillator.forcing * mean);
   return {"forcing", true, said};
 }

@@ -13,8 +13,9 @@ namespace clatter::results {
 struct FileHead {
   std::string title;
   std::string source;
-  std::string text;     ///< the complete configuration, as TOML that runs again (root attribute `config`)
-  int compression = 0;  ///< deflate level, 0 ... 9
+  std::string text;       ///< the complete configuration, as TOML that runs again (root attribute `config`)
+  std::string comment{};  ///< on the configuration; empty: none
+  int compression = 0;    ///< deflate level, 0 ... 9
 };
 
 /// Writes an HDF5 file that is netCDF-4 too: dimension scales, attributes, the whole configuration

@@ -272,6 +272,7 @@ void write_origin(hid_t file, const FileHead& head) {
   put(file, "Conventions", std::string{"CF-1.10"});
   put(file, "title", head.title);
   put(file, "source", head.source);
+  if (!head.comment.empty()) put(file, "comment", head.comment);
   put(file, "clatter_schema", std::string{"clatter/1"});
   put(file, "clatter_version", std::string{version()});
   put(file, "git_commit", std::string{git_commit()});

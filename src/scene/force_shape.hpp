@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -8,14 +9,15 @@
 #include <string_view>
 
 #include "math/number.hpp"
+#include "scene/force_table.hpp"
 
 namespace clatter {
 inline namespace scene {
 
 /// The course of a force over its period: a sine, or one of pieces.
-enum class Waveform : std::uint8_t { sine, square, pulse, triangle, trapezoid, sawtooth, half_sine };
+enum class Waveform : std::uint8_t { sine, square, pulse, triangle, trapezoid, sawtooth, half_sine, table };
 
-/// Their names, in the order of Waveform.
+/// The names of those that a key chooses, in the order of Waveform.
 inline constexpr std::array<std::string_view, 7> force_shapes{"sine",      "square",   "pulse",    "triangle",
                                                               "trapezoid", "sawtooth", "half-sine"};
 
@@ -30,6 +32,7 @@ struct BasicForceShape {
   Waveform waveform = Waveform::sine;
   Number duty{0.5};   ///< share of the period of the first part of a square, a pulse or a half-sine, 0 < duty < 1
   Number rise{0.25};  ///< share of the period in which a trapezoid rises from -1 to 1, 0 < rise <= 1/2
+  const ForceTable* table{nullptr};  ///< of Waveform::table alone, one that is `kept`
 
   [[nodiscard]] constexpr bool is_sine() const { return waveform == Waveform::sine; }
 
@@ -40,7 +43,7 @@ using ForceShape = BasicForceShape<double>;
 /// A shape with numbers of another type, that hold those of its own.
 template <class Number, class Other>
 [[nodiscard]] BasicForceShape<Number> with_numbers(const BasicForceShape<Other>& shape) {
-  return {shape.waveform, Number(shape.duty), Number(shape.rise)};
+  return {shape.waveform, Number(shape.duty), Number(shape.rise), shape.table};
 }
 
 /// A piece of a shape, which begins at a phase, in turns, with s and ds/dtheta. On it s'' = -w^2 s with the w of the
@@ -53,37 +56,94 @@ struct ForcePiece {
 /// The pieces of a shape over a turn, in the order of their beginnings, which are the knots of the force. None of a
 /// sine.
 template <class Number>
-struct ForcePieces {
-  std::array<ForcePiece<Number>, 4> pieces{};
-  std::size_t count = 0;
+class ForcePieces {
+ public:
+  explicit ForcePieces(const BasicForceShape<Number>& shape);
 
-  [[nodiscard]] auto begin() const { return pieces.begin(); }
-  [[nodiscard]] auto end() const { return pieces.begin() + static_cast<std::ptrdiff_t>(count); }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] Number begin_of(std::size_t i) const {
+    return table_ == nullptr ? few_[i].begin : Number(table_->knots()[i].turns);
+  }
+  /// The knot after a piece; of the last one in the next turn.
+  [[nodiscard]] Number end_of(std::size_t i) const { return i + 1 < size_ ? begin_of(i + 1) : Number(begin_of(0) + 1); }
+  [[nodiscard]] ForcePiece<Number> operator[](std::size_t i) const {
+    if (table_ == nullptr) return few_[i];
+    const auto& knots = table_->knots();
+    const Number peak(table_->peak()), value = Number(knots[i].after) / peak,
+                                       next = Number(knots[i + 1 < size_ ? i + 1 : 0].before) / peak,
+                                       begin = begin_of(i);
+    return {begin, value, (next - value) / (2 * pi<Number>() * (end_of(i) - begin))};
+  }
+  /// The piece that a phase of 0 ... 1 turns lies in, and how far; on a knot, to rounding, that which begins there.
+  struct Place {
+    std::size_t piece;
+    Number since;
+  };
+  [[nodiscard]] Place at(const Number& turns) const;
+
+ private:
+  const ForceTable* table_;
+  std::array<ForcePiece<Number>, 4> few_{};  ///< without a table
+  std::size_t size_ = 0;
 };
 
 template <class Number>
-[[nodiscard]] ForcePieces<Number> pieces_of(const BasicForceShape<Number>& shape) {
+ForcePieces<Number>::ForcePieces(const BasicForceShape<Number>& shape) : table_(shape.table) {
   const Number zero(0), one(1), turn = 2 * pi<Number>(), half = one / 2, quarter = one / 4;
   const Number &duty = shape.duty, &rise = shape.rise;
+  const auto set = [this](const auto&... pieces) { few_ = {pieces...}, size_ = sizeof...(pieces); };
+  using Piece = ForcePiece<Number>;
   switch (shape.waveform) {
     case Waveform::sine:
-      return {};
+      break;
     case Waveform::square:
-      return {{{{zero, one, zero}, {duty, -one, zero}}}, 2};
+      set(Piece{zero, one, zero}, Piece{duty, -one, zero});
+      break;
     case Waveform::pulse:
-      return {{{{zero, one, zero}, {duty, zero, zero}}}, 2};
+      set(Piece{zero, one, zero}, Piece{duty, zero, zero});
+      break;
     case Waveform::triangle:
-      return {{{{quarter, one, -4 / turn}, {1 - quarter, -one, 4 / turn}}}, 2};
+      set(Piece{quarter, one, -4 / turn}, Piece{1 - quarter, -one, 4 / turn});
+      break;
     case Waveform::trapezoid: {
       const Number up = 2 / (rise * turn), ramp = rise / 2;
-      return {{{{ramp, one, zero}, {half - ramp, one, -up}, {half + ramp, -one, zero}, {1 - ramp, -one, up}}}, 4};
+      set(Piece{ramp, one, zero}, Piece{half - ramp, one, -up}, Piece{half + ramp, -one, zero},
+          Piece{1 - ramp, -one, up});
+      break;
     }
     case Waveform::sawtooth:
-      return {{{{zero, -one, 2 / turn}}}, 1};
+      set(Piece{zero, -one, 2 / turn});
+      break;
     case Waveform::half_sine:
-      return {{{{zero, zero, 1 / (2 * duty)}, {duty, zero, zero}}}, 2};
+      set(Piece{zero, zero, 1 / (2 * duty)}, Piece{duty, zero, zero});
+      break;
+    case Waveform::table:
+      size_ = table_->knots().size();
   }
-  return {};
+}
+
+/// The distance from a knot, in turns, within which a phase is that of the knot, to rounding.
+template <class Number>
+[[nodiscard]] Number knot_rounding() {
+  return 16 * epsilon<Number>();
+}
+
+template <class Number>
+auto ForcePieces<Number>::at(const Number& turns) const -> Place {
+  const Number at = turns + knot_rounding<Number>();
+  std::size_t after = 0, end = size_;  // the first knot behind
+  while (after < end) {
+    const std::size_t middle = (after + end) / 2;
+    if (begin_of(middle) <= at)
+      after = middle + 1;
+    else
+      end = middle;
+  }
+  Place place{after > 0 ? after - 1 : size_ - 1, Number(0)};
+  place.since = at - begin_of(place.piece) + (after > 0 ? 0 : 1);
+  if (const Number next = at - begin_of(0) - 1; next >= 0) place = {0, next};
+  place.since = place.since > 2 * knot_rounding<Number>() ? Number(place.since - knot_rounding<Number>()) : Number(0);
+  return place;
 }
 
 /// w of a shape: s'' = -w^2 s, by the phase, on each of its pieces.
@@ -97,9 +157,11 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Number steepest_of(const BasicForceShape<Number>& shape) {
   using std::abs;
+  if (shape.table != nullptr) return Number(shape.table->steepest());
+  const ForcePieces<Number> pieces(shape);
   Number most(0);
-  for (const ForcePiece<Number>& piece : pieces_of(shape))
-    if (abs(piece.slope) > most) most = abs(piece.slope);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (abs(pieces[i].slope) > most) most = abs(pieces[i].slope);
   return most;
 }
 
@@ -107,59 +169,59 @@ template <class Number>
 template <class Number>
 [[nodiscard]] bool holds_throughout(const Number& level, const Number& constant, const Number& f,
                                     const BasicForceShape<Number>& shape) {
-  const bool is_one_way = shape.waveform == Waveform::pulse || shape.waveform == Waveform::half_sine;  // 0 <= s <= 1
-  const Number up = f > 0 ? f : Number(is_one_way ? Number(0) : Number(-f));
-  const Number down = f > 0 ? Number(is_one_way ? Number(0) : f) : Number(-f);
-  return level - constant >= up && level + constant >= down;
-}
-
-/// The distance from a knot, in turns, within which a phase is that of the knot, to rounding.
-template <class Number>
-[[nodiscard]] Number knot_rounding() {
-  return 16 * epsilon<Number>();
+  const bool is_one_way = shape.waveform == Waveform::pulse || shape.waveform == Waveform::half_sine;
+  const Number least(shape.table != nullptr ? shape.table->least()
+                     : is_one_way           ? 0.0
+                                            : -1.0),
+      most(shape.table != nullptr ? shape.table->most() : 1.0);
+  const Number up = f > 0 ? Number(f * most) : Number(f * least), down = f > 0 ? Number(f * least) : Number(f * most);
+  return level - constant >= up && level + constant >= -down;
 }
 
 /// s and ds/dtheta of a shape in pieces at a phase, in turns; on a knot those of the piece that begins there.
 template <class Number>
 [[nodiscard]] SineCosine<Number> shape_at(const BasicForceShape<Number>& shape, const Number& turns) {
-  const ForcePieces<Number> all = pieces_of(shape);
-  const Number at = part_of_turn(turns) + knot_rounding<Number>();
-  const ForcePiece<Number>* piece = &all.pieces[all.count - 1];
-  Number since = at + 1 - piece->begin;
-  for (const ForcePiece<Number>& other : all)
-    if (other.begin <= at) piece = &other, since = at - other.begin;
-  if (const ForcePiece<Number>& first = all.pieces[0]; first.begin + 1 <= at)
-    piece = &first, since = at - 1 - first.begin;
-  since = since > 2 * knot_rounding<Number>() ? Number(since - knot_rounding<Number>()) : Number(0);
-  if (shape.waveform == Waveform::half_sine && piece->slope != 0) {
-    const auto [sine, cosine] = sine_cosine_of_turns(Number(since * piece->slope));
-    return {sine, piece->slope * cosine};
+  const ForcePieces<Number> pieces(shape);
+  const auto [i, since] = pieces.at(part_of_turn(turns));
+  const ForcePiece<Number> piece = pieces[i];
+  if (shape.waveform == Waveform::half_sine && piece.slope != 0) {
+    const auto [sine, cosine] = sine_cosine_of_turns(Number(since * piece.slope));
+    return {sine, piece.slope * cosine};
   }
-  return {piece->value + piece->slope * (2 * pi<Number>() * since), piece->slope};
+  return {piece.value + piece.slope * (2 * pi<Number>() * since), piece.slope};
 }
 
-/// Phase in turns, 0 ... 1, at which the force f s passes a value, on its way to a side, within a piece; nothing if it
-/// never does, or only touches it.
+/// Phase in turns, 0 ... 1, at which the force f s passes a value, on its way to a side, within the piece that a phase
+/// lies in; nothing if it doesn't, or only touches it.
 template <class Number>
 [[nodiscard]] std::optional<Number> phase_of_shape(const BasicForceShape<Number>& shape, const Number& f,
-                                                   const Number& needed, bool rises) {
+                                                   const Number& needed, bool rises, const Number& from) {
   using std::atan2, std::sqrt;
   const Number value = needed / f;
   const bool up = (f > 0) == rises;
+  const ForcePieces<Number> pieces(shape);
+  const std::size_t i = pieces.at(part_of_turn(from)).piece;
+  const ForcePiece<Number> piece = pieces[i];
   if (shape.waveform == Waveform::half_sine) {
-    if (!(value > 0 && value < 1)) return std::nullopt;
+    if (piece.slope == 0 || !(value > 0 && value < 1)) return std::nullopt;
     const Number turns = atan2(value, Number(sqrt((1 - value) * (1 + value)))) / (2 * pi<Number>());
     return (up ? turns : Number(Number(1) / 2 - turns)) * 2 * shape.duty;
   }
-  const ForcePieces<Number> all = pieces_of(shape);
-  for (std::size_t i = 0; i < all.count; ++i) {
-    const ForcePiece<Number>& piece = all.pieces[i];
-    if (piece.slope == 0 || (piece.slope > 0) != up) continue;
-    const Number next = i + 1 < all.count ? all.pieces[i + 1].begin : Number(all.pieces[0].begin + 1);
-    const Number length = next - piece.begin, since = (value - piece.value) / (piece.slope * 2 * pi<Number>());
-    if (since > 0 && since < length) return part_of_turn(Number(piece.begin + since));
-  }
-  return std::nullopt;
+  if (piece.slope == 0 || (piece.slope > 0) != up) return std::nullopt;
+  const Number length = pieces.end_of(i) - piece.begin,
+               since = (value - piece.value) / (piece.slope * 2 * pi<Number>());
+  if (!(since > 0 && since < length)) return std::nullopt;
+  return part_of_turn(Number(piece.begin + since));
+}
+
+/// Whether the force jumps to a value, other than those of pieces without slope.
+template <class Number>
+[[nodiscard]] bool jumps_to(const BasicForceShape<Number>& shape, const Number& value) {
+  if (shape.waveform == Waveform::sawtooth) return value == -1;
+  if (shape.table == nullptr) return false;
+  return std::ranges::any_of(shape.table->knots(), [&](const ForceTable::Knot& knot) {
+    return knot.before != knot.after && value == Number(knot.after) / Number(shape.table->peak());
+  });
 }
 
 /// The mean of s, which acts as a load.
@@ -171,6 +233,8 @@ template <class Number>
       return shape.duty;
     case Waveform::half_sine:
       return 2 * shape.duty / pi<double>();
+    case Waveform::table:
+      return shape.table->mean();
     default:
       return 0;
   }
@@ -185,6 +249,8 @@ template <class Number>
       return true;
     case Waveform::square:
       return shape.duty == 0.5;
+    case Waveform::table:
+      return shape.table->is_odd_by_half();
     default:
       return false;
   }

@@ -31,7 +31,8 @@ struct BasicGivenScene : BasicScene<Number> {
   Number wall_restitution_upper{1.0};  ///< of an isolated collision with the upper soft wall, > 0, <= 1 (eq. 55)
   /// Period of the free motion that the start lies on, in place of x0 and v0 (eq. 36); NaN: these are the start.
   Number start_period{std::numeric_limits<double>::quiet_NaN()};
-  bool is_si = false;  ///< given in [machine]
+  Number force_factor{1.0};  ///< by which the forces of a table are multiplied, any finite
+  bool is_si = false;        ///< given in [machine]
 
   BasicGivenScene() = default;
   explicit BasicGivenScene(const BasicScene<Number>& scene) : BasicScene<Number>(scene) {}
@@ -122,6 +123,7 @@ template <class Number, class Unit>
   const bool is_in_own_units = !given.is_si && units == BasicUnits<Unit>{};
   BasicScene<Number> scene = given;
   if (!is_in_own_units) scene = detail::in_units(given, units);
+  if (scene.oscillator.shape.table != nullptr) scene.oscillator.forcing = scene.oscillator.forcing * given.force_factor;
   if (is_always_zero(scene.oscillator.forcing)) scene.oscillator.shape = {};  // there is no force
   const auto complete = [](const Number& kinetic, Number& static_level) {     // 0: the static level isn't given
     if (static_level < kinetic || is_always_zero(static_level)) static_level = kinetic;

@@ -145,6 +145,8 @@ template <class Number, class Other>
   to.is_si = given.is_si;
   [&]<std::size_t... row>(std::index_sequence<row...>) { (detail::convert<row>(from, to), ...); }
   (std::make_index_sequence<detail::table<Number>.size()>{});
+  to.oscillator.shape.waveform = from.oscillator.shape.waveform;
+  to.oscillator.shape.table = from.oscillator.shape.table;
   const auto laws = laws_of<Number>(to);
   const auto laws_of_other = laws_of<Other>(from);
   for (std::size_t i = 0; i < laws.size(); ++i) laws[i]->table = laws_of_other[i]->table;

@@ -15,7 +15,7 @@ enum class Role : std::uint8_t {
   start,         ///< it says where the motion begins
   damping,       ///< of the damper, in one of several ways
   drive,         ///< amplitude of the force
-  force_shape,   ///< share of the period of a part of the force
+  force_shape,   ///< of a force in pieces: share of the period of a part, or a factor
   load,          ///< constant force
   shaking,       ///< amplitude of stops or base
   friction,      ///< a level of dry friction

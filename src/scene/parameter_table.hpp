@@ -25,7 +25,10 @@ constexpr std::string_view a_force = "f = 1.0\n", friction_only = "friction = 0.
                                "frequency = 25.0\nforce_shape = \"square\"\n",
                            trapezoid_force =
                                "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\n"
-                               "frequency = 25.0\nforce_shape = \"trapezoid\"\n";
+                               "frequency = 25.0\nforce_shape = \"trapezoid\"\n",
+                           measured_force =
+                               "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nfrequency = 25.0\n"
+                               "force_table = \"period, force (N); 0, 40; 0.5, -40; 1, 40\"\n";
 
 /// Arrays one behind the other.
 template <class Row, std::size_t... sizes>
@@ -154,6 +157,13 @@ constexpr auto parameter_rows() {
                          trapezoid_force, "share of the rise of the force"},
           .role = Role::force_shape,
           .place = of_law<Number, o, &O::shape, &W::rise>},
+      Row{.key = "force_factor",
+          .in_scene = {"1", "-0.5", "factor by which the forces of force_table are multiplied",
+                       "force_table = \"period, f; 0, 1; 0.5, -1; 1, 1\"\n", "factor of the measured force"},
+          .in_machine = {"1", "-0.5", "factor by which the forces of force_table are multiplied", measured_force,
+                         "factor of the measured force"},
+          .role = Role::force_shape,
+          .place = at<Number, &Given::force_factor>},
   };
   const std::array after_stops{
       Row{.key = "load",

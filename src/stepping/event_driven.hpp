@@ -55,14 +55,17 @@ class EventDriven : public IntegratorBase<N, E> {
     const auto stop = motion::stop_at<Number>(this->stops(), side);
     State state;
     state.x = stop.position, state.from_stop = side;
-    if (const auto turns = modes::release_turns(*this, stop)) {
-      state.released = true, state.phase_turns = *turns;
-      return state;
+    for (Number knot(0); knot < 1; knot = this->next_knot(knot)) {
+      if (const auto turns = modes::release_turns(*this, stop, knot)) {
+        state.released = true, state.phase_turns = *turns;
+        return state;
+      }
+      if (E.stiffness && modes::is_releasing_knot(*this, state, knot)) {
+        state.phase_turns = knot;
+        return state;
+      }
     }
-    const auto jump = modes::releasing_knot(*this, state);
-    if (!jump) return std::nullopt;
-    state.phase_turns = *jump;
-    return state;
+    return std::nullopt;
   }
 
   // For the modes.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -104,23 +105,23 @@ class MainMass {
   }
   /// Whether a phase, in turns since the section, is that of a knot of the force, to rounding.
   [[nodiscard]] bool is_at_knot(const Number& phase_turns) const {
-    const Number near = 2 * knot_rounding<Number>();
-    if (constants_.is_in_pieces())
-      for (const auto& piece : pieces_of(constants_.shape))
-        if (const Number ahead = part_of_turn(Number(piece.begin - start_turns_ - phase_turns));
-            ahead <= near || ahead >= 1 - near)
-          return true;
-    return false;
+    if (!constants_.is_in_pieces()) return false;
+    const ForcePieces<Number> pieces(constants_.shape);
+    return pieces.at(part_of_turn(Number(start_turns_ + phase_turns))).since == 0;
   }
-  /// The first knot of the force after a phase, in turns since the section; beyond 1 if there is none.
+  /// The first knot of the force after a phase, in turns since the section, 0 ... 1; beyond 1 if there is none.
   [[nodiscard]] Number next_knot(const Number& phase_turns) const {
-    Number next(2);
-    if (constants_.is_in_pieces())
-      for (const auto& piece : pieces_of(constants_.shape))
-        if (const Number knot = part_of_turn(Number(piece.begin - start_turns_));
-            knot > phase_turns + knot_rounding<Number>() && knot < next)
-          next = knot;
-    return next;
+    const Number none(2);
+    if (!constants_.is_in_pieces()) return none;
+    const ForcePieces<Number> pieces(constants_.shape);
+    std::size_t piece = pieces.at(part_of_turn(Number(start_turns_ + phase_turns))).piece;
+    for (const bool may_be_here : {true, false}) {
+      const Number ahead = part_of_turn(Number(pieces.end_of(piece) - start_turns_)) - phase_turns;
+      if (ahead > knot_rounding<Number>()) return phase_turns + ahead;
+      if (!may_be_here || ahead < -knot_rounding<Number>()) break;
+      piece = piece + 1 < pieces.size() ? piece + 1 : 0;
+    }
+    return none;
   }
 
   /// What may hold a mass at x' = 0: the constant forces there, those of a soft stop included, and the static level.

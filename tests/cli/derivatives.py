@@ -11,6 +11,7 @@ from scene_runs import STEADY, Program, keys_of
 
 CLATTER = os.environ["CLATTER"]
 STARTS = {"x0", "v0", "phase", "loose_x0", "loose_v0"}
+TEXTS = {"force_shape", "force_table"}
 SETTLE = 'mode = "steady"\nmax_periods = 600\n'
 PERIODIC = 0  # the status
 SIDES = (-2, -1, 1, 2)
@@ -18,11 +19,11 @@ SIDES = (-2, -1, 1, 2)
 # powers of length, time and mass; all that isn't here is a number
 LEVELS = ("friction", "friction_static", "loose_friction", "loose_friction_static")
 OF_SCENE = {"h": (0, -1), "nu": (0, -1), "stiffness": (0, -2)}
-OF_SCENE |= dict.fromkeys(("f", "load", *LEVELS, "loose_load"), (1, -2))
+OF_SCENE |= dict.fromkeys(("f", "force_factor", "load", *LEVELS, "loose_load"), (1, -2))
 OF_MACHINE = {
     "damping": (0, -1, 1),
     "frequency": (0, -1, 0),
-    **dict.fromkeys(("force", "load", *LEVELS), (1, -2, 1)),
+    **dict.fromkeys(("force", "force_factor", "load", *LEVELS), (1, -2, 1)),
     "stiffness": (0, -2, 1),
     **dict.fromkeys(("mass", "loose_mass"), (0, 0, 1)),
     "loose_load": (1, -2, 0),
@@ -66,7 +67,7 @@ class Family:
 
     def __init__(self, program, scenes, section="[scene]\n", of_section=keys_of, time=SETTLE, observe=""):
         self.values = [of_section(scene) for scene in scenes]
-        self.keys = [key for key in self.values[0] if key not in STARTS]
+        self.keys = [key for key in self.values[0] if key not in STARTS | TEXTS]
         if section.startswith("[machine]"):
             self.keys.append("mass")
         if "friction" in self.keys:

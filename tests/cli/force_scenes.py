@@ -1,5 +1,6 @@
 """Forces of other shapes than a sine, as part of random scenes."""
 
+import itertools
 import math
 import random
 from dataclasses import dataclass
@@ -15,16 +16,25 @@ class Force:
     force_shape: str = "sine"
     force_duty: float = 0.5
     force_rise: float = 0.25
+    force_table: str = ""  # of the shape "table": rows of a share of the period and the force, the first at 0
 
     def keys_of_force(self):
         """The keys that its shape has; none of a sine."""
+        if self.force_shape == "table":
+            return ["force_table"]
         if self.force_shape == "sine":
             return []
         duty = ["force_duty"] if self.force_shape in WITH_DUTY else []
         return ["force_shape", *duty, *(["force_rise"] if self.force_shape == "trapezoid" else [])]
 
+    def rows(self):
+        """The rows of its table."""
+        return [tuple(map(float, row.split(","))) for row in self.force_table.split(";")[1:]]
+
     def knots(self):
         """Phases, in turns 0 ... 1, between which s has all derivatives."""
+        if self.force_shape == "table":
+            return sorted({share for share, _ in self.rows() if share < 1})
         half = self.force_rise / 2
         return {
             "sine": [],
@@ -36,6 +46,11 @@ class Force:
     def derivatives(self, turns, within, count):
         """s and its derivatives by the phase, in rad, at a phase by the course that s has about another one."""
         t, inside = turns - math.floor(within), within - math.floor(within)
+        if self.force_shape == "table":
+            ends = itertools.pairwise(self.rows())
+            (begin, low), (end, high) = next(pair for pair in ends if pair[0][0] <= inside < pair[1][0])
+            slope = (high - low) / (end - begin)
+            return [low + slope * (t - begin), slope / (2 * math.pi), *([0.0] * (count - 2))]
         if self.force_shape in ("sine", "half-sine"):
             w = 1.0 if self.force_shape == "sine" else 1 / (2 * self.force_duty)
             size = 1.0 if self.force_shape == "sine" or inside < self.force_duty else 0.0
@@ -55,6 +70,14 @@ class Force:
         return [s, slope / (2 * math.pi), *([0.0] * (count - 2))]
 
 
+def any_table(draw):
+    """Rows of a random force of size 1, some of them at one time."""
+    shares = sorted({0.0, 1.0, *(draw.uniform(0.01, 0.99) for _ in range(draw.randrange(1, 7)))})
+    counts = [1 if share in (0.0, 1.0) else draw.choice([1, 1, 2]) for share in shares]
+    rows = [(share, draw.uniform(-1, 1)) for share, count in zip(shares, counts) for _ in range(count)]
+    return "period, f" + "".join(f"; {share!r}, {force!r}" for share, force in rows)
+
+
 def driven(scenes, seed):
     """The scenes under forces of other shapes, none of them shaken."""
     draw = random.Random(f"force {seed}")
@@ -64,5 +87,8 @@ def driven(scenes, seed):
         shape = draw.choice(SHAPES)
         duty = draw.choice([0.5, draw.uniform(0.05, 0.95)])
         rise = draw.choice([0.5, draw.uniform(0.02, 0.5)])
-        changed.append(scene.changed(force_shape=shape, force_duty=duty, force_rise=rise, **still))
+        shaped = {"force_shape": shape, "force_duty": duty, "force_rise": rise}
+        if draw.random() < 0.3:
+            shaped = {"force_shape": "table", "force_table": any_table(draw)}
+        changed.append(scene.changed(**shaped, **still))
     return changed

@@ -152,6 +152,31 @@ class Relations(LooseMass):
             np.testing.assert_allclose(swept["x_max"][index], alone["x_max"], atol=1e-9, err_msg=str(own))
 
 
+class Derivatives(LooseMass):
+    def test_by_a_share_they_are_limits_of_differences_if_the_section_lies_on_the_knot_that_it_moves(self):
+        scene = {"f": 0.6, "h": 0.05, "nu": 0.9, "xs": 0.8, "R": 0.7}
+        housed = {**scene, "loose_mass": 0.1, "loose_gap": 0.4, "loose_R": 0.6}
+        for own, key, share, phase in (
+            ({**scene, "force_shape": "square"}, "force_duty", 0.3, 2 * math.pi * 0.3),
+            ({**scene, "force_shape": "half-sine"}, "force_duty", 0.6, 2 * math.pi * 0.6),
+            ({**scene, "force_shape": "trapezoid", "xs": 5.0}, "force_rise", 0.3, 0.3 * math.pi),
+            ({**without_stops(housed), "force_shape": "square"}, "force_duty", 0.3, 2 * math.pi * 0.3),
+        ):
+            with self.subTest(own):
+                own = {**own, "phase": phase}
+                told = self.steady({**own, key: share}, sensitivity=key, extrema=True)
+                self.assertEqual(told["status"], 0)
+                step = 1e-5
+                low, high = (self.steady({**own, key: share + side * step}, extrema=True) for side in (-1, 1))
+                for result in ("x_min", "x_max"):
+                    slope = (high[result] - low[result]) / (2 * step)
+                    self.assertAlmostEqual(told[f"d_{result}_d_{key}"], slope, delta=1e-4 * (1 + abs(slope)))
+
+
+def without_stops(scene):
+    return {key: value for key, value in scene.items() if key not in ("xs", "R")}
+
+
 BASE = "[scene]\nf = 1\nxs = 1\n"
 
 
@@ -162,7 +187,9 @@ class Refused(CommandLine):
             (square + "base_amplitude = 0.2\n", ("base_amplitude", "leave out one of them")),
             (square + "stop_amplitude = 0.2\n", ("stop_amplitude", "leave out one of them")),
             (square + '[branch]\nalong = "nu"\nrange = [0.5, 1.5]\n', ("branch", "sweep.follow")),
-            (square + '[observe]\nsensitivity = "nu"\n', ("sensitivity", "leave out one of them")),
+            (square + '[observe]\nsensitivity = "force_rise"\n', ("force_rise", "leave it out")),
+            (square + '[observe]\nsensitivity = "base_amplitude"\n', ("base_amplitude", "leave it out")),
+            (square + '[observe]\nsensitivity = "force_factor"\n', ("force_factor", "leave it out")),
             (BASE + 'force_shape = "squares"\n', ("square", "half-sine")),
             (BASE + '[sweep]\nforce_shape = ["square", "pulse"]\n', ("force_shape", "one run for each")),
             (square + "force_duty = 1\n", ("force_duty", "> 0 and < 1")),

@@ -76,10 +76,11 @@ class Install(unittest.TestCase):
             self.assertIn("</svg>", (Path(folder) / "a.svg").read_text(encoding="utf-8"))
 
     def test_configurations_are_all_there_and_one_is_planned(self):
-        wanted = {path.name for kind in ("toml", "ini") for path in (SOURCE / "configs").glob(f"*.{kind}")}
+        wanted = {path.name for kind in ("toml", "ini", "csv") for path in (SOURCE / "configs").glob(f"*.{kind}")}
         self.assertEqual(files_below(self.share / "configs"), wanted)
-        done = self.run_installed("clatter", "plan", self.share / "configs" / "fig22.toml")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("fig22.toml", "feeder.toml"):
+            done = self.run_installed("clatter", "plan", self.share / "configs" / name)
+            self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_the_hard_scenes_are_there(self):
         scenes = self.share / "hard_scenes.jsonl"

@@ -14,6 +14,7 @@ import numpy as np
 
 from derivatives import OF_MACHINE, OF_SCENE, PERIODIC, RESULTS_IN_HOUSING, SETTLE, SIDES, STARTS, Family, OfScenes
 from derivatives import by_each, derivative, families
+from force_scenes import SHAPES, Force
 from loose_mass_relations_test import mirrored
 from loose_mass_test import ATTRACTING, LooseMass, symmetric
 from random_scenes import logarithmic
@@ -191,6 +192,22 @@ class OfRandomScenes(OfScenes):
             for own, known in zip(found, sign * expected):
                 if not math.isnan(own) or not math.isnan(known):
                     self.check(abs(own - known), 1e-6 * abs(known) + 1e-8, f"{result} by {key}, {scene}")
+
+
+def drawn_in_pieces(count, seed):
+    """Under forces of other shapes, none of them shaken."""
+    draw = random.Random(f"pieces {seed}")
+    scenes = []
+    for scene in drawn(count, seed):
+        scene.pop("base_amplitude", None), scene.pop("stop_phase", None)
+        force = Force(draw.choice(SHAPES), draw.uniform(0.1, 0.9), draw.uniform(0.05, 0.45))
+        scenes.append(scene | {key: getattr(force, key) for key in force.keys_of_force()})
+    return scenes
+
+
+class UnderForcesInPieces(OfRandomScenes):
+    drawn = staticmethod(drawn_in_pieces)
+    part = 1.0  # second derivatives jump between the steps if an event passes a knot
 
 
 def started(scene, runs, i, frame):

@@ -44,7 +44,10 @@ def keys_of(scene):
         for side in ("_lower", "_upper"):
             is_there = math.isfinite(getattr(scene, "loose" + side))
             keys += ["loose" + side, *keys_of_law(scene, "loose_R" + side)] if is_there else ["loose_R" + side]
-    return {key: value_of(scene, key) for key in keys}
+    values = {key: value_of(scene, key) for key in keys}
+    if "force_table" in values:
+        values["force_factor"] = values.pop("f")
+    return values
 
 
 def machine_keys(mass):
@@ -53,14 +56,18 @@ def machine_keys(mass):
     def keys_of_machine(scene):
         values = keys_of(scene)
         values["damping"] = 2 * mass * values.pop("h")
-        for key, of_scene in (("force", "f"), ("stiffness", "stiffness"), ("load", "load")):
+        force = "force"
+        if "force_table" in values:
+            force, values["f"] = "force_factor", values["force_factor"]
+            values["force_table"] = values["force_table"].replace(", f;", ", force (N);")
+        for key, of_scene in ((force, "f"), ("stiffness", "stiffness"), ("load", "load")):
             values[key] = mass * values.pop(of_scene)
         for key in ("stop_stiffness_lower", "stop_stiffness_upper", "friction", "friction_static", "loose_mass"):
             if key in values:
                 values[key] *= mass
         values["frequency"] = values.pop("nu") / (2 * math.pi)
         if scene.is_unforced():
-            del values["frequency"], values["phase"], values["force"]
+            del values["frequency"], values["phase"], values[force]
         return values
 
     return keys_of_machine

@@ -13,6 +13,7 @@ import unittest
 import numpy as np
 from derivatives import OF_MACHINE, OF_SCENE, PERIODIC, RESULTS, SETTLE, SIDES, STARTS, Family, OfScenes
 from derivatives import derivative, families, same_motion
+from force_scenes import driven
 from random_scenes import INF, compliant_scenes, pressing_scenes, random_scenes, rubbed
 from restitution_scenes import by_speed
 from scene_runs import STEADY, keys_of, machine_keys
@@ -58,7 +59,7 @@ class Relations(OfScenes):
             found = [i for i in range(len(scenes)) if family.runs["status"][i] == PERIODIC]
             found = [i for i in found if not math.isnan(family.runs["period"][i])]
             starts = [started(scenes[i], family.runs["x"][i, 0], family.runs["v"][i, 0], frame) for i in found]
-            steps = [1e-4 * max(0.05, abs(getattr(scene, key))) for scene in starts]
+            steps = [1e-4 * max(0.05, abs(getattr(scene, attribute(key)))) for scene in starts]
             moved = [[moved_by(s, key, side * d) for side in SIDES] for s, d in zip(starts, steps)]
             kept = [j for j in range(len(found)) if all(map(permitted, moved[j]))]
             if not kept:
@@ -88,6 +89,14 @@ class OfRestitutionBySpeed(Relations):
     @staticmethod
     def drawn(count, seed):
         return by_speed(drawn(count, seed), seed, tables=0)  # they have no derivatives by their speeds
+
+
+class UnderForcesInPieces(Relations):
+    count = COUNT // 2
+
+    @staticmethod
+    def drawn(count, seed):
+        return driven(drawn(count, seed), seed)
 
 
 class OfRandomScenes(Relations):
@@ -223,7 +232,12 @@ def is_whole(scene, key):
 
 
 def moved_by(scene, key, step):
-    return within_stops(scene.changed(**{key: getattr(scene, key) + step}))
+    return within_stops(scene.changed(**{attribute(key): getattr(scene, attribute(key)) + step}))
+
+
+def attribute(key):
+    """The number of a scene that a key gives."""
+    return "f" if key == "force_factor" else key
 
 
 def permitted(scene):
@@ -233,7 +247,8 @@ def permitted(scene):
     exponents = [getattr(scene, "R_exponent" + side) for side in sides]
     below = 0 < scene.friction_static < scene.friction
     may_rebound = all(p / (1 + p) <= of <= 1 for of, p in zip(R, exponents))
-    return all(number >= 0 for number in numbers + exponents) and may_rebound and not below
+    has_shape = 0 < scene.force_duty < 1 and 0 < scene.force_rise <= 0.5
+    return all(number >= 0 for number in numbers + exponents) and may_rebound and not below and has_shape
 
 
 def started(scene, x, v, frame):
@@ -253,7 +268,7 @@ def within_stops(scene):
 
 def keys_of_kind(scene, first):
     """The keys of the first scene of a kind, also where a step leaves 0."""
-    return {key: getattr(scene, key) for key in keys_of(first)}
+    return {key: getattr(scene, attribute(key)) for key in keys_of(first)}
 
 
 if __name__ == "__main__":

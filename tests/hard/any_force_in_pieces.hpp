@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hard/any_scene.hpp"
+#include "support/force_table.hpp"
 
 namespace clatter::hard {
 
@@ -16,6 +17,7 @@ template <AnyScene (*draw)(std::uint64_t)>
   o.shape.duty = random.happens(0.3) ? 0.5 : random.uniform(0.02, 0.98);
   o.shape.rise = random.happens(0.2) ? 0.5 : random.logarithmic(1e-6, 0.5);
   if (random.happens(0.5)) any.scene.start.phase = random.uniform(-3, 3);  // away from knots
+  if (random.happens(0.3)) o.shape.waveform = Waveform::table, o.shape.table = support::any_force_table(random);
   return any;
 }
 

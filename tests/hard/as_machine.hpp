@@ -16,6 +16,15 @@ namespace clatter::hard {
   return law;
 }
 
+/// The rows of a measured force in the simulator's terms.
+[[nodiscard]] inline std::vector<ForceRow> rows_of(const ForceTable* table) {
+  std::vector<ForceRow> rows;
+  if (table)
+    for (const auto& [turns, before, after] : table->knots())
+      rows.push_back({turns, before / table->peak(), after / table->peak()});
+  return rows;
+}
+
 /// A scene in the simulator's terms.
 [[nodiscard]] inline MachineScene as_machine(const Scene& scene) {
   const auto& [oscillator, stops, start, shaking, friction, loose] = scene;
@@ -28,6 +37,7 @@ namespace clatter::hard {
           .shape = static_cast<ForceShape>(oscillator.shape.waveform),
           .duty = oscillator.shape.duty,
           .rise = oscillator.shape.rise,
+          .table = rows_of(oscillator.shape.table),
           .friction = friction.kinetic,
           .static_friction = friction.static_level,
           .lower = stops.lower,

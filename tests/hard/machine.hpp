@@ -30,6 +30,12 @@ enum class ForceShape : std::uint8_t {
   trapezoid,  ///< straight from -1 to 1 within `rise` of the period, around theta = 0, and back around theta = pi
   sawtooth,   ///< theta/pi - 1, from -1 to 1
   half_sine,  ///< sin(theta/(2 duty)) on the first `duty` of the period, else 0
+  table,      ///< straight lines between rows
+};
+/// A row of a measured force.
+struct ForceRow {
+  double share;          ///< of the period; they rise
+  double before, after;  ///< between which s jumps there
 };
 
 /// A main mass, 1, with friction, between stops, that may carry a loose mass eps between two walls:
@@ -42,6 +48,7 @@ struct MachineScene {
   double damping = 0, stiffness = 1, forcing = 0, frequency = 1, phase = 0, load = 0;
   ForceShape shape = ForceShape::sine;
   double duty = 0.5, rise = 0.25;            ///< of the shapes that have them: 0 < duty <= 1, 0 < rise <= 1/2
+  std::vector<ForceRow> table{};             ///< of the shape that has one
   double friction = 0, static_friction = 0;  ///< levels; the static one is no less than the other
   double lower = -no_stop, upper = no_stop;  ///< places of the stops; infinite: none
   double restitution_lower = 1, restitution_upper = 1;

@@ -19,6 +19,18 @@ struct ForcePiece {
   Quad height = 0, pace = 0;
 };
 
+/// The straight lines between rows.
+[[nodiscard]] inline std::vector<ForcePiece> lines_of(const std::vector<ForceRow>& rows) {
+  std::vector<ForcePiece> lines;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool is_last = i + 1 == rows.size();
+    const Quad from = rows[i].share, until = is_last ? 1 + Quad(rows[0].share) : Quad(rows[i + 1].share),
+               level = rows[i].after, end = is_last ? rows[0].before : rows[i + 1].before;
+    lines.push_back({.from = from, .level = level, .slope = (end - level) / (until - from)});
+  }
+  return lines;
+}
+
 /// The pieces of a period, which may begin before angle 0.
 [[nodiscard]] inline std::vector<ForcePiece> pieces_of(const MachineScene& scene) {
   const Quad duty = scene.duty, rise = scene.rise, quarter = 0.25;
@@ -40,6 +52,8 @@ struct ForcePiece {
       return {{.from = 0, .level = -1, .slope = 2}};
     case ForceShape::half_sine:
       return {{.from = 0, .level = 0, .height = 1, .pace = 1 / (2 * duty)}, {.from = duty, .level = 0}};
+    case ForceShape::table:
+      return lines_of(scene.table);
   }
   return {};
 }

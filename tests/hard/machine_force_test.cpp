@@ -25,6 +25,8 @@ std::vector<MachineScene> each_shape() {
                                    {.shape = ForceShape::trapezoid, .rise = 1e-9}};
   for (const ForceShape shape : {ForceShape::square, ForceShape::pulse, ForceShape::half_sine})
     for (const double duty : {0.5, 0.1, 0.9, 1.0}) scenes.push_back({.shape = shape, .duty = duty});
+  scenes.push_back({.shape = ForceShape::table, .table = {{0, 0.5, -0.25}, {0.125, 1, 1}, {0.625, -0.5, 0.75}}});
+  scenes.push_back({.shape = ForceShape::table, .table = {{0, 1, -1}}});
   return scenes;
 }
 /// The shape at a share of the period, 0 ... 1.
@@ -46,6 +48,14 @@ Real shape_at(const MachineScene& scene, Real share) {
       return 2 * share - 1;
     case ForceShape::half_sine:
       return share < duty ? std::sin(pi * share / duty) : 0;
+    case ForceShape::table: {
+      const auto& rows = scene.table;
+      std::size_t i = rows.size() - 1;
+      while (rows[i].share > share) --i;
+      const Real from = rows[i].share, until = i + 1 < rows.size() ? rows[i + 1].share : 1.0,
+                 end = i + 1 < rows.size() ? rows[i + 1].before : rows[0].before;
+      return std::lerp(Real(rows[i].after), end, (share - from) / (until - from));
+    }
   }
   return 0;
 }
@@ -100,6 +110,22 @@ std::vector<Change> changes_of(const MachineScene& scene, bool is_first) {
       return {{.share = 0, .jump = is_first ? -1.0L : -2.0L, .bend = is_first ? 2.0L : 0.0L}};
     case ForceShape::half_sine:
       return {{.share = 0, .sine = 1}, {.share = duty, .sine = 1}};
+    case ForceShape::table: {
+      const auto& rows = scene.table;
+      std::vector<Change> changes;
+      const auto slope = [&](std::size_t i) {
+        const Real until = i + 1 < rows.size() ? rows[i + 1].share : 1.0;
+        return (Real(i + 1 < rows.size() ? rows[i + 1].before : rows[0].before) - rows[i].after) /
+               (until - rows[i].share);
+      };
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        changes.push_back({.share = rows[i].share,
+                           .jump = rows[i].after - (i == 0 && is_first ? 0 : Real(rows[i].before)),
+                           .bend = slope(i) - (i > 0      ? slope(i - 1)
+                                               : is_first ? 0
+                                                          : slope(rows.size() - 1))});
+      return changes;
+    }
   }
   return {};
 }

@@ -9,17 +9,25 @@
 #include "motion/arc.hpp"
 #include "motion/arc_bounds.hpp"
 #include "motion/contact_force.hpp"
+#include "support/force_table.hpp"
 #include "support/motion.hpp"
 #include "support/random.hpp"
 
 namespace clatter::motion::force_pieces_test {
 namespace {
 
-constexpr Waveform in_pieces[] = {Waveform::square,    Waveform::pulse,    Waveform::triangle,
-                                  Waveform::trapezoid, Waveform::sawtooth, Waveform::half_sine};
+constexpr Waveform in_pieces[] = {Waveform::square,   Waveform::pulse,     Waveform::triangle, Waveform::trapezoid,
+                                  Waveform::sawtooth, Waveform::half_sine, Waveform::table};
+
+/// A random shape, of a kind of them.
+ForceShape any_shape(Waveform waveform, support::Random& random) {
+  ForceShape shape{waveform, random.uniform(0.02, 0.98), random.uniform(0.02, 0.5)};
+  if (waveform == Waveform::table) shape.table = support::any_force_table(random);
+  return shape;
+}
 
 std::string text(const Oscillator& o) {
-  return std::string(force_shapes[static_cast<std::size_t>(o.shape.waveform)]) +
+  return (o.shape.table ? "table" : std::string(force_shapes[static_cast<std::size_t>(o.shape.waveform)])) +
          ", k = " + std::to_string(o.stiffness) + ", h = " + std::to_string(o.damping) +
          ", nu = " + std::to_string(o.frequency);
 }
@@ -33,6 +41,8 @@ std::vector<Oscillator> oscillators() {
         all.push_back({h, -1.3, nu, 0.2, k, {.waveform = Waveform::triangle}});
         all.push_back({h, 1.3, nu, 0.2, k, {.waveform = Waveform::trapezoid, .rise = 1e-3}});
         all.push_back({h, 1.3, nu, 0.0, k, {.waveform = Waveform::square, .duty = 0.3}});
+        support::Random random(3, all.size());
+        all.push_back({h, 0.7, nu, 0.2, k, any_shape(Waveform::table, random)});
         for (const double duty : {0.5, 0.15, nu / 2 < 1 ? nu / 2 : 0.9})  // the last one resonates at k = 1
           all.push_back({h, 0.7, nu, 0.2, k, {.waveform = Waveform::half_sine, .duty = duty}});
       }
@@ -116,6 +126,14 @@ double shape(const ForceShape& of, double turns) {
       return 2 * t - 1;
     case Waveform::half_sine:
       return t < of.duty ? std::sin(pi * t / of.duty) : 0;
+    case Waveform::table: {
+      const auto& knots = of.table->knots();
+      std::size_t i = knots.size() - 1;
+      while (i > 0 && knots[i].turns > t) --i;
+      const bool is_last = i + 1 == knots.size();
+      const double end = is_last ? 1 : knots[i + 1].turns, share = (t - knots[i].turns) / (end - knots[i].turns);
+      return std::lerp(knots[i].after, knots[is_last ? 0 : i + 1].before, share) / of.table->peak();
+    }
     case Waveform::sine:
       break;
   }
@@ -123,9 +141,9 @@ double shape(const ForceShape& of, double turns) {
 }
 
 TEST(ForceInPieces, shapes_are_as_defined) {
-  for (std::uint64_t i = 0; i < 6000; ++i) {
+  for (std::uint64_t i = 0; i < 7000; ++i) {
     support::Random random(7, i);
-    const ForceShape of{in_pieces[i % 6], random.uniform(0.02, 0.98), random.uniform(0.02, 0.5)};
+    const ForceShape of = any_shape(in_pieces[i % 7], random);
     const double turns = random.uniform(-3, 3), shortly = 1e-7;
     const auto [s, slope] = shape_at(of, turns);
     EXPECT_NEAR(s, shape(of, turns), 1e-13) << turns;
@@ -138,46 +156,61 @@ TEST(ForceInPieces, shapes_are_as_defined) {
 TEST(ForceInPieces, at_a_knot_the_piece_holds_that_begins_there) {
   for (const Waveform waveform : in_pieces)
     for (const double duty : {0.5, 0.3, 1.0 / 3}) {
-      const ForceShape of{waveform, duty, 0.2};
-      for (const auto& piece : pieces_of(of))
-        for (const double turns : {piece.begin, piece.begin + 1, piece.begin - 1, piece.begin * (1 - 1e-16)}) {
-          EXPECT_NEAR(shape_at(of, turns).sine, piece.value, 1e-15);
-          EXPECT_NEAR(shape_at(of, turns).cosine, piece.slope, 1e-15);
+      support::Random random(17, static_cast<std::uint64_t>(duty * 100));
+      ForceShape of{waveform, duty, 0.2};
+      if (waveform == Waveform::table) of.table = support::any_force_table(random);
+      const ForcePieces<double> pieces(of);
+      for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const auto [begin, value, slope] = pieces[i];
+        for (const double turns : {begin, begin + 1, begin - 1, begin * (1 - 1e-16)}) {
+          EXPECT_NEAR(shape_at(of, turns).sine, value, 1e-15);
+          EXPECT_NEAR(shape_at(of, turns).cosine, slope, 1e-15);
         }
+      }
     }
 }
 
 TEST(ForceInPieces, the_mean_is_that_of_the_shape) {
   for (const Waveform waveform : in_pieces) {
-    const ForceShape of{waveform, 0.3, 0.2};
+    support::Random random(19, 0);
+    ForceShape of{waveform, 0.3, 0.2};
+    if (waveform == Waveform::table) of.table = support::any_force_table(random);
     constexpr int count = 100000;
     double sum = 0;
     for (int i = 0; i < count; ++i) sum += shape(of, (i + 0.5) / count);
-    EXPECT_NEAR(mean_of(of), sum / count, 1e-8);
+    EXPECT_NEAR(mean_of(of), sum / count, waveform == Waveform::table ? 1e-5 : 1e-8);
   }
 }
 
-TEST(ForceInPieces, a_force_passes_a_value_at_the_phase_that_is_told) {
+TEST(ForceInPieces, a_force_passes_a_value_at_the_phase_that_is_told_within_a_piece) {
   int found = 0;
-  for (std::uint64_t i = 0; i < 3000; ++i) {
+  for (std::uint64_t i = 0; i < 3500; ++i) {
     support::Random random(11, i);
-    const ForceShape of{in_pieces[i % 6], random.uniform(0.02, 0.98), random.uniform(0.02, 0.5)};
+    const ForceShape of = any_shape(in_pieces[i % 7], random);
     const double f = random.uniform(-2, 2), needed = random.uniform(-1.1, 1.1) * std::abs(f), shortly = 1e-9;
-    const bool rises = random.happens(0.5);
-    const auto turns = phase_of_shape(of, f, needed, rises);
-    double crossings = 0;  // of a run through a period, jumps apart
-    constexpr int steps = 4000;
-    for (int step = 0; step < steps; ++step) {
-      const double before = f * shape(of, step * 1.0 / steps), after = f * shape(of, (step + 1.0) / steps);
-      const bool jumps = std::abs(after - before) > std::abs(f) * 0.1;
-      if (!jumps && (rises ? before < needed && after >= needed : before > needed && after <= needed)) ++crossings;
-    }
     if (std::abs(needed) < 1.1 * std::abs(f) / 1000) continue;  // a half-sine comes to 0 at its knot
-    EXPECT_EQ(turns.has_value(), crossings == 1) << static_cast<int>(of.waveform) << ' ' << needed / f;
-    if (!turns) continue;
-    ++found;
-    EXPECT_NEAR(f * shape(of, *turns), needed, 1e-12);
-    EXPECT_EQ(f * shape(of, *turns + shortly) > f * shape(of, *turns - shortly), rises);
+    const bool rises = random.happens(0.5);
+    const ForcePieces<double> pieces(of);
+    for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+      const double begin = pieces.begin_of(piece), length = pieces.end_of(piece) - begin;
+      const auto turns = phase_of_shape(of, f, needed, rises, begin + length * random.uniform(0, 0.9));
+      int crossings = 0;  // of a run through the piece
+      constexpr int steps = 1000;
+      for (int step = 0; step < steps; ++step) {
+        const double before = f * shape(of, begin + length * (step + 0.001) / steps),
+                     after = f * shape(of, begin + length * (step + 0.999) / steps);
+        if (rises ? before < needed && after >= needed : before > needed && after <= needed) ++crossings;
+      }
+      if (turns && crossings == 0) {  // between two steps
+        EXPECT_NEAR(f * shape(of, *turns), needed, 1e-12);
+        continue;
+      }
+      EXPECT_EQ(turns.has_value(), crossings == 1) << static_cast<int>(of.waveform) << ' ' << needed / f;
+      if (!turns) continue;
+      ++found;
+      EXPECT_NEAR(f * shape(of, *turns), needed, 1e-12);
+      EXPECT_EQ(f * shape(of, *turns + shortly) > f * shape(of, *turns - shortly), rises);
+    }
   }
   EXPECT_GT(found, 500);
 }

@@ -4,13 +4,18 @@
 
 #include <cmath>
 
+#include "math/fifty_digits.hpp"
 #include "scene/displacement_bound.hpp"
 #include "scene/effects.hpp"
 #include "scene/given_scene.hpp"
+#include "scene/parameter.hpp"
+#include "support/force_table.hpp"
 #include "support/random.hpp"
 
 namespace clatter::force_shape_test {
 namespace {
+
+using support::any_force_table;
 
 Scene between_stops(Waveform waveform, double duty = 0.5) {
   Scene scene;
@@ -43,7 +48,8 @@ TEST(ForceShape, friction_holds_a_mass_for_good_if_it_does_at_each_phase) {
   int held = 0;
   for (std::uint64_t i = 0; i < 4000; ++i) {
     support::Random random(5, i);
-    Scene scene = between_stops(static_cast<Waveform>(i % force_shapes.size()), random.uniform(0.05, 0.95));
+    Scene scene = between_stops(static_cast<Waveform>(i % (force_shapes.size() + 1)), random.uniform(0.05, 0.95));
+    if (scene.oscillator.shape.waveform == Waveform::table) scene.oscillator.shape.table = any_force_table(random);
     scene.oscillator.forcing = random.uniform(-1, 1), scene.oscillator.load = random.uniform(-1, 1);
     scene.friction = {0.5, random.uniform(0.5, 2)};
     const double x = random.uniform(-0.9, 0.9);
@@ -58,6 +64,35 @@ TEST(ForceShape, friction_holds_a_mass_for_good_if_it_does_at_each_phase) {
     held += sticks_for_good(scene, x);
   }
   EXPECT_GT(held, 500);
+}
+
+TEST(ForceShape, a_table_has_mirror_images_if_its_rows_have_opposites_half_a_period_later) {
+  const auto symmetric = [](std::vector<ForceTable::Knot> knots) {
+    Scene scene = between_stops(Waveform::table);
+    scene.oscillator.shape.table = kept(ForceTable(std::move(knots)));
+    return is_symmetric(scene);
+  };
+  EXPECT_TRUE(symmetric({{0, -1, 1}, {0.5, 1, -1}}));
+  EXPECT_TRUE(symmetric({{0, 2, 2}, {0.2, 0.1, 0.7}, {0.5, -2, -2}, {0.7, -0.1, -0.7}}));
+  EXPECT_FALSE(symmetric({{0, 2, 2}, {0.2, 0.1, 0.7}, {0.5, -2, -2}, {0.6, -0.1, -0.7}}));
+  EXPECT_FALSE(symmetric({{0, 2, 2}, {0.5, -2, -1}}));
+  EXPECT_FALSE(symmetric({{0, 1, -1}}));  // a sawtooth
+}
+
+TEST(ForceShape, equal_tables_are_one) {
+  const std::vector<ForceTable::Knot> knots{{0, 3, 3}, {0.25, -4, 1}};
+  EXPECT_EQ(kept(ForceTable(knots)), kept(ForceTable(knots)));
+  EXPECT_NE(kept(ForceTable(knots)), kept(ForceTable({{0, 3, 3}, {0.25, -4, 2}})));
+  EXPECT_EQ(kept(ForceTable(knots))->peak(), 4);
+}
+
+TEST(ForceShape, numbers_of_another_type_keep_the_table_and_its_factor) {
+  GivenScene given;
+  given.oscillator.shape = {.waveform = Waveform::table, .table = kept(ForceTable({{0, 3, 3}, {0.25, -4, 1}}))};
+  given.oscillator.forcing = 4, given.force_factor = -0.5;
+  const auto scene = computed(with_numbers<FiftyDigits>(given)).first;
+  EXPECT_EQ(scene.oscillator.shape.table, given.oscillator.shape.table);
+  EXPECT_EQ(scene.oscillator.forcing, -2);
 }
 
 TEST(ForceShape, a_scene_in_pieces_runs_on_a_set_of_any_stiffness) {

@@ -294,7 +294,9 @@ Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric
                        (is_si ? "machine.force" : "scene.f"));
   if (!problem.oscillator.shape.is_sine())
     throw SettingError(std::string("a branch follows motion under a sine so far: leave out ") +
-                       (is_si ? "machine" : "scene") + ".force_shape, or follow the motion by sweep.follow");
+                       (is_si ? "machine." : "scene.") +
+                       (problem.oscillator.shape.table != nullptr ? "force_table" : "force_shape") +
+                       ", or follow the motion by sweep.follow");
   const MotionStart near = period == 0 ? settled(problem) : near_start(problem, period);
   if (has_loose_mass(problem.loose)) return start_in_housing(start, problem, near, symmetric);
   if (has_friction(problem.friction)) return slipping_start(problem, near, symmetric);

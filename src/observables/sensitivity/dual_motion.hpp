@@ -8,6 +8,8 @@
 #include "motion/soft_stop.hpp"
 #include "observables/energy/quadrature.hpp"
 #include "observables/observable.hpp"
+#include "observables/sensitivity/course.hpp"
+#include "observables/sensitivity/dual_force.hpp"
 
 namespace clatter::observables {
 
@@ -22,14 +24,24 @@ template <class Along>
   return number;
 }
 
-/// The start of an arc as it was run, with the derivatives of a state.
+/// Sine and cosine of the force at the start of a stretch, or s and ds/dtheta of one in pieces, at a phase of which
+/// only the derivatives count.
+template <class Along>
+[[nodiscard]] SineCosine<Along> force_at(const Stretch& stretch, const DualForce<Along>& pieces, const Along& phase) {
+  const motion::Motion<double>& m = stretch.start;
+  if (!pieces.is_in_pieces()) return {m.cosine * phase, -m.sine * phase};
+  return pieces.at(stretch, phase);
+}
+
+/// The start of a stretch as it was run, with the derivatives of a state and a force.
 template <class Along, Effects E>
-[[nodiscard]] motion::Motion<Along> with_slopes_of(const motion::Motion<double>& m, double anchor, const Along& x_at,
-                                                   const Along& v_at, const Along& phase,
+[[nodiscard]] motion::Motion<Along> with_slopes_of(const Stretch& stretch, const Along& x_at, const Along& v_at,
+                                                   const SineCosine<Along>& force,
                                                    const motion::ArcConstants<Along, E>& constants) {
+  const motion::Motion<double>& m = stretch.start;
   const Along x = with_slope_of(m.x, x_at), offset = with_slope_of(m.offset, x_at), v = with_slope_of(m.v, v_at),
-              sine = with_slope_of(m.sine, m.cosine * phase), cosine = with_slope_of(m.cosine, -m.sine * phase);
-  const Along a = constants.acceleration(constants.from_equilibrium(x, Along(anchor), offset), v, sine);
+              sine = with_slope_of(m.sine, force.sine), cosine = with_slope_of(m.cosine, force.cosine);
+  const Along a = constants.acceleration(constants.from_equilibrium(x, Along(stretch.anchor), offset), v, sine);
   return {offset, x, v, with_slope_of(m.a, a), sine, cosine};
 }
 

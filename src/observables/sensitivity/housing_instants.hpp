@@ -18,12 +18,13 @@ class HousingInstants {
   using Kind = motion::Event::Kind;
 
  public:
-  /// Of a force that leads by `lead`.
+  /// Of a force that leads by `lead`, or one in pieces.
   HousingInstants(const Course& course, const ObservedSpan& span, const BasicScene<Along>& scene,
-                  const MainOscillators<Along, E>& oscillators, const Along& lead)
+                  const MainOscillators<Along, E>& oscillators, const DualForce<Along>& pieces, const Along& lead)
       : course_(course),
         scene_(scene),
         oscillators_(oscillators),
+        pieces_(pieces),
         lead_(lead),
         rubs_(has_loose_friction(span.scene.loose)) {}
 
@@ -39,9 +40,12 @@ class HousingInstants {
     if (stretch.ends.empty() || stretch.ends.front().kind == Kind::press) {
       // a press alone comes where the force of the wall only touches zero, and changes nothing
       const Stretch* const next = i + 1 < course_.size() ? &course_[i + 1] : nullptr;
+      if (next != nullptr && pieces_.is_in_pieces() && pieces_.begins_by_jump(*next))
+        return with_slope_of(0, (pieces_.knot(*next) - phase) / scene_.oscillator.frequency.value);
       if (const auto late = next != nullptr ? lateness_of_hold(stretch, *next, end) : std::nullopt) return *late;
       const bool lets_go = stretch.is_held && next != nullptr && !next->is_held;
-      const Along then = lets_go ? phase_of_release(stretch, *next, x) : lead_;
+      Along then = lets_go ? phase_of_release(stretch, *next, x) : lead_;
+      if (pieces_.is_in_pieces() && !lets_go) then += pieces_.knot(next != nullptr ? *next : course_.front());
       return with_slope_of(0, (then - phase) / scene_.oscillator.frequency.value);
     }
     const motion::Event& event = stretch.ends.front();
@@ -72,7 +76,12 @@ class HousingInstants {
         const Along share = held.carries ? 1 / (1 + scene_.loose.ratio) : Along(1);
         needed += share * soft.stiffness * (x - soft.position);
       }
-      phase = with_slope_of(0, needed / still.f / next.start.cosine);
+      const Along sine = needed / still.f;
+      if (!pieces_.is_in_pieces())
+        phase = with_slope_of(0, sine / next.start.cosine);
+      else
+        phase = next.start.cosine == 0 ? pieces_.knot(next)
+                                       : with_slope_of(0, (sine - pieces_.at(next, Along(0)).sine) / next.start.cosine);
     });
     return phase;
   }
@@ -80,6 +89,7 @@ class HousingInstants {
   const Course& course_;
   const BasicScene<Along>& scene_;
   const MainOscillators<Along, E>& oscillators_;
+  const DualForce<Along>& pieces_;
   Along lead_;
   bool rubs_;
 };

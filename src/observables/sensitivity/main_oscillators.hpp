@@ -20,7 +20,7 @@ class MainOscillators {
 
   /// `free`: that of the main mass alone.
   MainOscillators(const Constants& free, const BasicScene<Number>& scene)
-      : held_(Held::of(Number(0), Number(0), free.nu, Number(0), Number(0))),
+      : held_(Held::of(Number(0), Number(0), free.nu, Number(0), Number(0), free.shape)),
         alone_{beside(free, scene, Side::lower), beside(free, scene, Side::none), beside(free, scene, Side::upper)},
         carrying_(of_both(free, scene)) {}
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "math/dual.hpp"
@@ -9,6 +10,7 @@
 #include "motion/dry_friction.hpp"
 #include "observables/sensitivity/course_extremes.hpp"
 #include "observables/sensitivity/course_slips.hpp"
+#include "observables/sensitivity/dual_force.hpp"
 #include "observables/sensitivity/dual_motion.hpp"
 #include "scene/smooth_effects.hpp"
 
@@ -33,11 +35,12 @@ class Walk {
         extremes_(extremes),
         scene_(scene),
         force_(force_in_frame(scene.oscillator, scene.shaking)),
+        pieces_(span, scene),
         frame_(span, scene, force_.lead),
         mass_(mass),
         still_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude,
                                                   scene.oscillator.frequency, scene.oscillator.load,
-                                                  scene.oscillator.stiffness)),
+                                                  scene.oscillator.stiffness, scene.oscillator.shape)),
         slips_(still_, scene.friction, scene.stops) {}
 
   Sensitivity::ByKey run() {
@@ -64,6 +67,7 @@ class Walk {
   /// stays at its place.
   std::size_t begin() {
     state_.phase = force_.lead;
+    if (pieces_.is_in_pieces() && !course_.empty()) state_.phase += pieces_.knot(course_.front());
     for (std::size_t i = 0; i < course_.size(); ++i)
       if (const Stretch& before = course_[(i + course_.size() - 1) % course_.size()];
           !course_[i].stands() && before.is_rest()) {
@@ -100,10 +104,17 @@ class Walk {
       needed += stop.stiffness * (state_.x - stop.position);
     }
     const Along sine = needed / still_.f;
-    state_.phase = with_slope_of(0, sine / m.cosine);
+    stands_ = false;
+    if (pieces_.is_in_pieces()) {
+      const bool by_jump = m.cosine == 0 || pieces_.begins_by_jump(stretch);
+      const Along still = pieces_.at(stretch, Along(0)).sine;
+      state_.phase = by_jump ? pieces_.knot(stretch) : with_slope_of(0, (sine - still) / m.cosine);
+      if (by_jump) return;
+    } else {
+      state_.phase = with_slope_of(0, sine / m.cosine);
+    }
     const double begins = slips_.release_acceleration(stretch.ahead).value;
     closes_ = closes_ && std::abs(m.a - begins) <= same * std::abs(still_.f.value);
-    stands_ = false;
   }
 
   void follow(std::size_t i) {
@@ -120,12 +131,13 @@ class Walk {
   template <Effects of>
   void fly(std::size_t i, const motion::ArcConstants<Along, of>& constants) {
     const Stretch& stretch = course_[i];
-    const Motion start = with_slopes_of(stretch.start, stretch.anchor, state_.x, state_.v, state_.phase, constants);
+    const Motion start =
+        with_slopes_of(stretch, state_.x, state_.v, force_at(stretch, pieces_, state_.phase), constants);
     const motion::Arc<Along, of> arc(constants, start, Along(stretch.anchor));
     const Motion end = arc.at(Along(stretch.length));
     const Along& nu = scene_.oscillator.frequency;
     Along phase = state_.phase + with_slope_of(0, nu * stretch.length);
-    const Along late = lateness(stretch, end, phase);
+    const Along late = lateness(i, end, phase);
     const Along v = end.v + end.a * late;
     const State before = state_;
     const bool is_on_stop = stretch.end && stretch.end->kind == Event::Kind::impact;
@@ -141,9 +153,14 @@ class Walk {
   }
 
   /// By how much the end of a stretch comes later: the surface of its event (eqs. 4 and 50; of a slip the velocity), or
-  /// the phase of a section, over its rate of change. Its value is 0.
-  [[nodiscard]] Along lateness(const Stretch& stretch, const Motion& end, const Along& phase) const {
-    if (!stretch.end) return with_slope_of(0, (force_.lead - phase) / scene_.oscillator.frequency.value);
+  /// the phase of a section or a knot of the force, over its rate of change. Its value is 0.
+  [[nodiscard]] Along lateness(std::size_t i, const Motion& end, const Along& phase) const {
+    const Stretch& stretch = course_[i];
+    if (!stretch.end) {
+      Along then = force_.lead;
+      if (pieces_.is_in_pieces()) then += pieces_.knot(course_[(i + 1) % course_.size()]);
+      return with_slope_of(0, (then - phase) / scene_.oscillator.frequency.value);
+    }
     return lateness_of(*stretch.end, end, stretch.anchor, scene_.stops);
   }
 
@@ -190,6 +207,9 @@ class Walk {
       if (!closes_) return {};
       const auto &a = state_.x.slope, &b = state_.v.slope;
       const double determinant = (1 - a[by_x]) * (1 - b[by_v]) - a[by_v] * b[by_x];
+      const double rounding = 64 * std::numeric_limits<double>::epsilon();
+      if (std::abs(determinant) <= rounding * (1 + std::abs(a[by_x])) * (1 + std::abs(b[by_v])))
+        return {};  // without spring and stops it may be anywhere
       x = ((1 - b[by_v]) * a[by_key] + a[by_v] * b[by_key]) / determinant;
       v = ((1 - a[by_x]) * b[by_key] + b[by_x] * a[by_key]) / determinant;
     }
@@ -209,6 +229,7 @@ class Walk {
   const Extremes& extremes_;
   const BasicScene<Along>& scene_;
   LeadingForce<Along> force_;
+  DualForce<Along> pieces_;
   DualFrame<Along> frame_;
   Along mass_;                            ///< over that of the units
   motion::ArcConstants<Along, E> still_;  ///< without friction

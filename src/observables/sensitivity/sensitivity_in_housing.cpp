@@ -35,13 +35,14 @@ class HousingWalk {
         extremes_(extremes),
         scene_(scene),
         force_(force_on_ground(scene.oscillator, scene.shaking)),
+        pieces_(span, scene),
         frame_(span, scene, force_.lead),
         mass_(mass),
-        oscillators_(
-            motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude, scene.oscillator.frequency,
-                                               scene.oscillator.load, scene.oscillator.stiffness),
-            scene),
-        instants_(course, span, scene, oscillators_, force_.lead),
+        oscillators_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude,
+                                                        scene.oscillator.frequency, scene.oscillator.load,
+                                                        scene.oscillator.stiffness, scene.oscillator.shape),
+                     scene),
+        instants_(course, span, scene, oscillators_, pieces_, force_.lead),
         rule_(scene.loose),
         has_stops_(has_events_of_its_own(span.scene)) {}
 
@@ -88,6 +89,7 @@ class HousingWalk {
     const motion::RelativeStart<double>& loose = first.loose;
     state_ = {Along(first.start.x, by_x), Along(first.start.v, by_v), Along(loose.origin + loose.offset, by_z),
               Along(loose.w, by_w), force_.lead};
+    if (pieces_.is_in_pieces()) state_.phase += pieces_.knot(first);
     if (first.wall != Side::none) state_.z = place(first.wall);
     if (first.carries) state_.w = Along(0);
     if (first.is_held) stop(first.held_on);
@@ -147,7 +149,7 @@ class HousingWalk {
 
   template <Effects of>
   [[nodiscard]] Motion start_of(const Stretch& stretch, const motion::ArcConstants<Along, of>& constants) const {
-    return with_slopes_of(stretch.start, stretch.anchor, state_.x, state_.v, state_.phase, constants);
+    return with_slopes_of(stretch, state_.x, state_.v, force_at(stretch, pieces_, state_.phase), constants);
   }
   [[nodiscard]] motion::RelativeStart<Along> start_of(const motion::RelativeStart<double>& loose) const {
     return {Along(loose.origin), with_slope_of(loose.offset, state_.z), with_slope_of(loose.w, state_.w),
@@ -295,6 +297,7 @@ class HousingWalk {
   const HousingExtremes& extremes_;
   const BasicScene<Along>& scene_;
   LeadingForce<Along> force_;
+  DualForce<Along> pieces_;
   DualFrame<Along> frame_;
   Along mass_;  ///< over that of the units
   MainOscillators<Along, E> oscillators_;

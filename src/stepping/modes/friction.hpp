@@ -97,8 +97,10 @@ struct Stuck {
         return modes::stay_at_wall(loop, stage, holding.stop, std::optional(holding), stage.end, true);
     std::optional<Number> first;
     for (const Side side : {Side::lower, Side::upper})
-      if (const auto release = modes::upcoming(modes::in_section(loop, holding.release_phase(loop.constants(), side)),
-                                               state.phase_turns, first ? *first : stage.end))
+      if (const auto release = modes::upcoming(
+              modes::in_section(
+                  loop, holding.release_phase(loop.constants(), side, Number(loop.start_turns() + state.phase_turns))),
+              state.phase_turns, first ? *first : stage.end))
         first = release;
     return laws::hold(loop, stage, holding.stop, first);
   }

@@ -27,8 +27,9 @@ struct AtRest {
         const motion::Holding<Number> holding{stop.side, constant, Number(0)};
         return modes::stay_at_wall(loop, stage, stop.side, std::optional(holding), stage.end, true);
       }
-    return laws::hold(loop, stage, stop.side,
-                      modes::upcoming(modes::release_turns(loop, stop), state.phase_turns, stage.end));
+    return laws::hold(
+        loop, stage, stop.side,
+        modes::upcoming(modes::release_turns(loop, stop, state.phase_turns), state.phase_turns, stage.end));
   }
 };
 

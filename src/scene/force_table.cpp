@@ -1,0 +1,52 @@
+#include "scene/force_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <utility>
+
+namespace clatter {
+inline namespace scene {
+namespace {
+
+/// Whether half a period after each knot there is one at which the force is the opposite.
+bool is_odd(const std::vector<ForceTable::Knot>& knots) {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const std::size_t half = knots.size() / 2;
+  if (knots.size() % 2 != 0) return false;
+  for (std::size_t i = 0; i < half; ++i) {
+    const ForceTable::Knot &one = knots[i], &other = knots[i + half];
+    if (std::abs(other.turns - one.turns - 0.5) > rounding) return false;
+    if (other.before != -one.before || other.after != -one.after) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ForceTable::ForceTable(std::vector<Knot> knots) : knots_(std::move(knots)), is_odd_(is_odd(knots_)) {
+  for (const Knot& knot : knots_) peak_ = std::max({peak_, std::abs(knot.before), std::abs(knot.after)});
+  least_ = 1, most_ = -1;
+  for (std::size_t i = 0; i < knots_.size(); ++i) {
+    const bool is_last = i + 1 == knots_.size();
+    const double end = knots_[is_last ? 0 : i + 1].before / peak_, begin = knots_[i].after / peak_,
+                 length = (is_last ? 1.0 : knots_[i + 1].turns) - knots_[i].turns;
+    least_ = std::min({least_, begin, end}), most_ = std::max({most_, begin, end});
+    mean_ += length * (begin + end) / 2;
+    steepest_ = std::max(steepest_, std::abs(end - begin) / (2 * std::numbers::pi * length));
+  }
+}
+
+const ForceTable* kept(ForceTable table) {
+  static std::mutex mutex;
+  static std::deque<ForceTable> all;  // which never move
+  const std::lock_guard lock(mutex);
+  const auto same = std::ranges::find(all, table);
+  return same != all.end() ? &*same : &all.emplace_back(std::move(table));
+}
+
+}  // namespace scene
+}  // namespace clatter
