@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "config/force_table.hpp"
 #include "config/placed.hpp"
@@ -19,8 +18,8 @@ Waveform waveform_of(const Settings& settings) {
 void set_force_shape(const Settings& settings, GivenScene& scene) {
   Oscillator& oscillator = scene.oscillator;
   oscillator.shape.waveform = waveform_of(settings);
-  if (auto force = measured_force(settings)) {
-    oscillator.shape.table = kept(std::move(force->table));
+  if (const std::optional<MeasuredForce>& force = settings.measured_force) {
+    oscillator.shape.table = kept(force->table);
     oscillator.forcing = oscillator.shape.table->peak();
   }
 }

@@ -142,7 +142,7 @@ double number_in(const Row& row, std::string_view field) {
   return number;
 }
 
-/// The rows as numbers, times from the first one on. Throws ConfigError if they are too few or too many, or if a time
+/// The rows as numbers. Throws ConfigError if they are too few or too many, or if a time
 /// falls.
 std::vector<Sample> samples_of(const std::vector<Row>& rows, const Head& head) {
   const std::size_t count = rows.size() - 1;
@@ -239,7 +239,7 @@ void read_force_table(Settings& settings) {
     if (given.key->name != name_of_key) continue;
     auto& value = std::get<std::string>(given.value);
     if (holds_rows(value)) {
-      (void)force_in(value, given.location, settings.is_si());
+      settings.measured_force = force_in(value, given.location, settings.is_si());
       continue;
     }
     if (value.empty())
@@ -256,17 +256,11 @@ void read_force_table(Settings& settings) {
     check_characters(path.string(), text);
     const std::vector<Row> rows = rows_of(text, {path.string(), 1, 1}, true);
     if (rows.empty()) fail({path.string(), 1, 1}, "no rows of a force");
-    (void)force_of(rows, settings.is_si());
+    settings.measured_force = force_of(rows, settings.is_si());
     std::string lines;
     for (const Row& row : rows) lines.append(row.text) += '\n';
     value = std::move(lines);
   }
-}
-
-std::optional<MeasuredForce> measured_force(const Settings& settings) {
-  const Setting* const given = given_table(settings);
-  if (given == nullptr) return std::nullopt;
-  return force_in(std::get<std::string>(given->value), given->location, settings.is_si());
 }
 
 std::size_t bytes_of_force_table(const Settings& settings) {
@@ -303,7 +297,7 @@ void check_force_table(const Settings& settings) {
 }
 
 std::string stretch_of_force(const Settings& settings) {
-  const auto force = measured_force(settings);
+  const std::optional<MeasuredForce>& force = settings.measured_force;
   if (!force || force->period == 0) return {};
   const Parameter frequency = settings.is_si() ? Parameter("frequency") : Parameter("nu");
   const Setting* const given = settings.given(frequency);

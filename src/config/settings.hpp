@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "config/keys.hpp"
 #include "config/parsed_config.hpp"
 #include "config/value_grammar.hpp"
+#include "scene/force_table.hpp"
 #include "scene/parameter.hpp"
 
 namespace clatter::config {
@@ -46,6 +48,12 @@ struct Replaced {
 /// "--set scene.stop_upper=2 in place of 'xs', fig22.toml:7:1, which stays as 'stop_lower'"
 [[nodiscard]] std::string to_string(const Replaced& replaced);
 
+/// A force as it was measured: the rows of `force_table`, with forces as written, in N in [machine].
+struct MeasuredForce {
+  ForceTable table;
+  double period = 0.0;  ///< from the first row to the last, in tau or s; 0 if the rows give phases
+};
+
 /// A configuration with valid keys and values, each by itself; how they go together is checked afterwards.
 struct Settings {
   std::string file;
@@ -53,7 +61,8 @@ struct Settings {
   std::vector<Setting> values;  ///< with one value each, in the order of the text
   std::vector<Setting> axes;    ///< in the order of the text
   std::vector<Replaced> replaced{};
-  std::string_view scene_section = "scene";  ///< that describes the scene: "scene", or "machine"
+  std::string_view scene_section = "scene";       ///< that describes the scene: "scene", or "machine"
+  std::optional<MeasuredForce> measured_force{};  ///< of `force_table`, once that is read
 
   /// Whether the scene is a machine, so that all quantities are in SI.
   [[nodiscard]] bool is_si() const { return scene_section == "machine"; }
