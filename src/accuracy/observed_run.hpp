@@ -58,7 +58,7 @@ class RunObserver {
     if (!harmonics_) return;
     harmonics_->finish(record.x, record.duration);
     record.harmonics = harmonics_->displacement(), record.v_harmonics = harmonics_->velocity();
-    record.x_range = extrema_.displacement(rigid_ones(stops_)), record.v_range = extrema_.velocity();
+    record.x_range = extrema_.displacement(outermost(rigid_ones(stops_))), record.v_range = extrema_.velocity();
   }
 
   std::vector<Event> events{};

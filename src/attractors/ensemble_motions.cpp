@@ -23,7 +23,7 @@ double turns_to_phase_zero(double phase) {
 bool is_possible(const point::Problem& problem, const Ending& ending) {
   return ending.periods >= 0 && ending.periods <= static_cast<double>(steady::RepeatFinder::longest) &&
          ending.periods == std::floor(ending.periods) && std::isfinite(ending.phase.value_or(0.0)) &&
-         is_inside(problem, ending.state);
+         is_inside(started(problem, ending.state, ending.phase.value_or(start_phase(problem))), ending.state);
 }
 
 /// A mass that friction holds for good, or that creeps to the edge of the band in which it does.
@@ -31,7 +31,7 @@ Motion stuck(const point::Problem& problem, const SectionState& state, Side cree
   Motion motion{.periodic = standstill(problem, state), .state = state};
   motion.sticks = creeps_to == Side::none, motion.creeps_to = creeps_to;
   motion.periodic->word = observables::ImpactWord::stuck;
-  if (problem.oscillator.forcing != 0) motion.periodic->regime = "0/1";
+  if (is_driven(problem.oscillator)) motion.periodic->regime = "0/1";
   return motion;
 }
 
@@ -62,7 +62,7 @@ std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& prob
     return known ? known : add(stuck(problem, state, edge));
   }
   if (stands_for_good(problem, state)) return band_ ? band_ : add(stuck(problem, state));
-  if (problem.oscillator.forcing == 0) {
+  if (!is_driven(problem.oscillator)) {
     if (const auto known = passing(state)) return known;
     return add({.periodic = standstill(problem, state), .state = state});
   }
@@ -82,7 +82,7 @@ void EnsembleMotions::restore(const point::Problem& problem, const Ending& endin
     motion = stuck(problem, ending.state, edge);
   } else if (stands_for_good(problem, ending.state)) {
     motion = stuck(problem, ending.state);
-  } else if (problem.oscillator.forcing == 0) {
+  } else if (!is_driven(problem.oscillator)) {
     motion.periodic = standstill(problem, ending.state);
   } else if (ending.periods > 0) {
     motion.periodic = periodic_motion(problem, ending.state, static_cast<std::size_t>(ending.periods));

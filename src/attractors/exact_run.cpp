@@ -124,7 +124,9 @@ double spectral_radius(const Round& round) {
 }
 
 std::string word_of(const point::Problem& problem, const Round& round) {
-  return observables::ImpactWord::word_of(round.contacts, soft_stop_beyond(problem.stops, round.orbit.states[0].x));
+  const motion::State<double>& first = round.orbit.states[0];
+  const Side within = move_by_themselves(problem.stops) ? first.within : soft_stop_beyond(problem.stops, first.x);
+  return observables::ImpactWord::word_of(round.contacts, within);
 }
 
 std::optional<SectionState> state_after(const point::Problem& problem, double turns) {

@@ -35,8 +35,9 @@ Round polished(const point::Problem& problem, Round round, double phase) {
     if (!(gap > 0)) break;
     const SectionState step = newton_step(round), &from = round.states.front();
     const SectionState next{from.x + step.x, from.v + step.v, from.z + step.z, from.w + step.w};
-    if (!is_inside(problem, next)) break;
-    const std::optional<Round> closer = run_round(started(problem, next, phase), round.orbit.periods);
+    const point::Problem from_there = started(problem, next, phase);
+    if (!is_inside(from_there, next)) break;
+    const std::optional<Round> closer = run_round(from_there, round.orbit.periods);
     if (!closer || closer->orbit.passages != round.orbit.passages || !(size_of(closer->gap()) < gap)) break;
     round = *closer;
   }
@@ -79,9 +80,14 @@ bool PeriodicMotion::passes(const SectionState& state) const {
 }
 
 SectionState after_impact(const Scene& scene, SectionState state, double size) {
-  const Stops rigid = rigid_ones(scene.stops);
-  const auto stop = motion::stop_at<double>(rigid, state.v < 0 ? Side::lower : Side::upper);
-  if (state.v != 0 && std::abs(state.x - stop.position) <= same_motion * size) state.v = stop.law.after(state.v);
+  const StopsNow stops(rigid_ones(scene.stops), scene.oscillator.frequency, scene.shaking.lead);
+  const auto meet = [&](Side side, double carried) {
+    const auto stop = motion::stop_at<double>(stops, side);
+    const double into = state.v - carried;
+    if (stop.into(into) > 0 && std::abs(state.x - stop.position) <= same_motion * size)
+      state.v = stop.law.after(into) + carried;
+  };
+  meet(Side::lower, stops.velocity_lower), meet(Side::upper, stops.velocity_upper);
   const LooseMass& loose = scene.loose;
   const double wall = state.w < 0 ? loose.lower : loose.upper;
   if (state.w != 0 && std::abs(state.z - wall) <= same_motion * size) {
@@ -152,7 +158,7 @@ std::optional<SectionState> mirrored(const point::Problem& problem, const Sectio
   const auto image = [&](const SectionState& of) {
     return SectionState{2 * *centre - of.x, -of.v, walls - of.z, -of.w};
   };
-  if (problem.oscillator.forcing == 0) return image(state);
+  if (!is_driven(problem.oscillator)) return image(state);
   const std::optional<SectionState> later = state_after(started(problem, state, 0.0), 0.5);
   return later ? std::optional(image(*later)) : std::nullopt;
 }

@@ -41,9 +41,14 @@ inline void forget_places(std::span<SectionState> states) {
   for (SectionState& state : states) state.z = 0;
 }
 
-/// A state at which no stop is passed, and no wall of a loose mass.
+/// The rigid stops at the phase of the start of a scene; soft ones may be passed.
+[[nodiscard]] inline StopsNow stops_at_start(const Scene& scene) {
+  return {rigid_ones(scene.stops), scene.oscillator.frequency, scene.start.phase};
+}
+
+/// A state, at that phase, at which no stop is passed, and no wall of a loose mass.
 [[nodiscard]] inline bool is_inside(const Scene& scene, const SectionState& state) {
-  const Stops stops = rigid_ones(scene.stops);  // a soft one may be passed
+  const Stops stops = stops_at_start(scene);
   return state.x >= stops.lower && state.x <= stops.upper && std::isfinite(state.x) && std::isfinite(state.v) &&
          state.z >= scene.loose.lower && state.z <= scene.loose.upper && std::isfinite(state.z) &&
          std::isfinite(state.w);
@@ -51,7 +56,7 @@ inline void forget_places(std::span<SectionState> states) {
 
 /// The nearest such state.
 [[nodiscard]] inline SectionState moved_inside(const Scene& scene, const SectionState& state) {
-  const Stops stops = rigid_ones(scene.stops);
+  const Stops stops = stops_at_start(scene);
   return {std::clamp(state.x, stops.lower, stops.upper), state.v,
           std::clamp(state.z, scene.loose.lower, scene.loose.upper), state.w};
 }

@@ -20,6 +20,9 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
     law.below = mix(a.below, b.below), law.unit = mix(a.unit, b.unit);
     return law;
   };
+  const auto mix_motions = [&](const StopMotion& a, const StopMotion& b) -> StopMotion {
+    return {mix(a.amplitude, b.amplitude), mix(a.phase, b.phase)};
+  };
   const Oscillator &a = from.oscillator, &b = to.oscillator;
   Oscillator& o = problem.oscillator;
   o.damping = mix(a.damping, b.damping), o.forcing = mix(a.forcing, b.forcing);
@@ -35,7 +38,10 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
                    mix(from.stops.stiffness_lower, to.stops.stiffness_lower),
                    mix(from.stops.stiffness_upper, to.stops.stiffness_upper),
                    mix(from.stops.damping_lower, to.stops.damping_lower),
-                   mix(from.stops.damping_upper, to.stops.damping_upper)};
+                   mix(from.stops.damping_upper, to.stops.damping_upper),
+                   mix_motions(from.stops.motion_lower, to.stops.motion_lower),
+                   mix_motions(from.stops.motion_upper, to.stops.motion_upper)};
+  o.paces_stops = move_by_themselves(problem.stops);
   const LooseMass &one = from.loose, &other = to.loose;
   problem.loose = {.ratio = mix(one.ratio, other.ratio),
                    .lower = mix(one.lower, other.lower),
@@ -73,7 +79,7 @@ TrackedMotion::TrackedMotion(const point::Problem& problem, const Motion& motion
   state_ = periodic.cycle[static_cast<std::size_t>(periodic.middle_of_flight)];
   phase_turns_ = periodic.middle_of_flight - std::floor(periodic.middle_of_flight);
   if (!has_loose_mass(at_.loose)) state_.z = state_.w = 0;
-  if (sticks_ || problem.oscillator.forcing == 0 || phase_turns_ == 0) return;
+  if (sticks_ || !is_driven(problem.oscillator) || phase_turns_ == 0) return;
   const auto there = state_after(started(at_, state_, 0.0), phase_turns_);
   lost_ = !there;
   if (there) state_ = *there;
@@ -91,13 +97,14 @@ bool TrackedMotion::follow(const point::Problem& next) {
     followed = band_edge_at(to, state_.x) == creeps_to_;
   } else if (floats_ && !may_float(next)) {
     followed = false;
-  } else if (to.oscillator.forcing == 0 || at_.oscillator.forcing == 0) {
-    followed = to.oscillator.forcing == at_.oscillator.forcing;
+  } else if (!is_driven(to.oscillator) || !is_driven(at_.oscillator)) {
+    followed = is_driven(to.oscillator) == is_driven(at_.oscillator);
     state_ = place_of_rest(at_, to, state_);
   } else if (is_periodic()) {
     followed = follow_periodic(to);
   } else {
-    auto sections = run_sections(started(to, moved_inside(to, state_), 0.0), VisitedCells::long_look);
+    auto sections =
+        run_sections(started(to, moved_inside(started(to, state_, 0.0), state_), 0.0), VisitedCells::long_look);
     followed = sections && sections->repeats_after == 0;
     if (followed) {
       state_ = sections->states.back();
@@ -132,7 +139,8 @@ bool TrackedMotion::correct(const point::Problem& problem) {
   constexpr int most_iterations = 8;
   const double phase = 2 * pi<double>() * phase_turns_, enough = 1e-11 * size_;
   double before = std::numeric_limits<double>::infinity();
-  state_ = moved_inside(problem, state_);
+  const point::Problem at_phase = started(problem, state_, phase);
+  state_ = moved_inside(at_phase, state_);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const auto round = run_round(started(problem, state_, phase), periods_);
     if (!round || (floats_ && round->meets_walls)) return false;
@@ -142,7 +150,7 @@ bool TrackedMotion::correct(const point::Problem& problem) {
       return word_of(problem, *round) == word_ && spectral_radius(*round) < 1 && move_section(problem, *round);
     if (!(length <= before / 4)) return false;
     before = length;
-    state_ = moved_inside(problem, {state_.x + step.x, state_.v + step.v, state_.z + step.z, state_.w + step.w});
+    state_ = moved_inside(at_phase, {state_.x + step.x, state_.v + step.v, state_.z + step.z, state_.w + step.w});
   }
   return false;
 }
@@ -164,7 +172,7 @@ std::optional<std::size_t> TrackedMotion::among(const EnsembleMotions& motions) 
     const auto met = motions.visiting(states_, floats_);
     return met && motions.motions()[*met].symmetric == symmetric_ ? met : std::nullopt;
   }
-  if (at_.oscillator.forcing == 0 || creeps_to_ != Side::none) return motions.passing(state_);
+  if (!is_driven(at_.oscillator) || creeps_to_ != Side::none) return motions.passing(state_);
   const auto there = state_after(started(at_, state_, 2 * pi<double>() * phase_turns_), 1 - phase_turns_);
   return there ? motions.passing(after_impact(at_, *there, size_)) : std::nullopt;
 }

@@ -125,7 +125,7 @@ Json json_of(const ClaimedEnd& end, bool has_loose_mass) {
 
 /// The machine of a point, in SI.
 Json json_of(const GivenScene& machine) {
-  const auto& [h, force, frequency, load, stiffness, shape] = machine.oscillator;
+  const auto& [h, force, frequency, load, stiffness, shape, paces] = machine.oscillator;
   Json json{{"mass", machine.mass}, {"stiffness", stiffness}};
   if (std::isfinite(machine.quality))
     json["quality"] = machine.quality;

@@ -215,10 +215,12 @@ KnownResult::KnownResult(const Problem& problem, const PointResult& result)
 
 CertifiedPoint certified_period(const Problem& problem, const PointResult& result) {
   CertifiedPoint point{.status = result.status};
-  if (problem.oscillator.forcing == 0)
+  if (!is_driven(problem.oscillator))
     point.without = Without::force;
   else if (!problem.oscillator.shape.is_sine())
     point.without = Without::force_shape;
+  else if (move_by_themselves(problem.stops))
+    point.without = Without::stop_motion;
   else
     certify_periodic(problem, result, point);
   return with_claimed_chatters(std::move(point));
@@ -231,6 +233,10 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
   if (known.status != Status::periodic && known.status != Status::transient) return point;
   if (has_soft_wall(problem.loose) || !problem.oscillator.shape.is_sine()) {
     point.without = has_soft_wall(problem.loose) ? Without::soft_wall : Without::force_shape;
+    return point;
+  }
+  if (move_by_themselves(problem.stops)) {
+    point.without = Without::stop_motion;
     return point;
   }
   const bool is_steady = known.status == Status::periodic;

@@ -23,6 +23,7 @@ enum class Without : std::uint8_t {
   rounding,        ///< the motion stretches rounding so much that its events aren't known
   soft_wall,       ///< a loose mass has a soft wall, which certificates don't state
   force_shape,     ///< a force that is no sine
+  stop_motion,     ///< stops that move by themselves
   law_of_speed,    ///< a chatter, or a special point, under a restitution that depends on the speed, without a claim
   loose_friction,  ///< a loose mass that rubs on its housing chatters there, or stops beside a main mass that is held
   both_held,       ///< a stop or friction holds the main mass while a wall presses the loose one

@@ -23,6 +23,8 @@ std::string reason_of(const CertifiedPoint& point) {
       return "with a soft wall of the loose mass";
     case Without::force_shape:
       return "under a force that is no sine";
+    case Without::stop_motion:
+      return "between stops that move by themselves";
     case Without::law_of_speed:
       return "with a restitution that depends on the speed in a chatter or a special point";
     case Without::loose_friction:

@@ -40,7 +40,8 @@ void check_machine(const Settings& settings) {
   if (settings.given("mass") == nullptr)
     fail(settings.location_of_section("machine"),
          "'mass' is missing in [machine]; give it in kg, or as e.g. \"250 g\"");
-  for (const Parameter needs_frequency : std::array<Parameter, 3>{"force", "stop_amplitude", "base_amplitude"})
+  for (const Parameter needs_frequency : std::array<Parameter, 5>{"force", "stop_amplitude", "base_amplitude",
+                                                                  "stop_amplitude_lower", "stop_amplitude_upper"})
     if (const Setting* const given = not_zero(settings, needs_frequency);
         given != nullptr && settings.given("frequency") == nullptr)
       fail(given->key_location,

@@ -258,6 +258,7 @@ Config config_of(ParsedConfig parsed) {
   check_restitutions(settings, groups);
   check_force_table(settings);
   check_force_shape(settings);
+  check_stop_motion(settings, groups);
   check_stops_and_start(settings, groups);
   check_soft_stops(settings, groups);
   check_sensitivity(settings);

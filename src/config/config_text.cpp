@@ -69,16 +69,18 @@ bool is_law_of_speed(const Key& key) {
   return parameter && parameter->role() == Role::law_of_speed;
 }
 
-/// Whether a key is of a force in pieces.
-bool is_of_force_shape(const Key& key) {
+/// Whether a key is of a force in pieces, or of the motion of one stop by itself: of neither are there defaults in the
+/// text, as most scenes have none.
+bool is_of_few(const Key& key) {
+  if (key.name == "force_shape" || key.name == "force_table") return true;
   const auto parameter = describes_scene(key.section) ? Parameter::of(key.name) : std::nullopt;
-  return key.name == "force_shape" || key.name == "force_table" ||
-         (parameter && parameter->role() == Role::force_shape);
+  const Role role = parameter ? parameter->role() : Role::other;
+  return role == Role::force_shape || role == Role::stop_motion;
 }
 
 /// Whether the default of a key belongs in the text: not if its alternative was given.
 bool default_counts(const Settings& settings, const Key& key) {
-  if (is_of_force_shape(key)) return false;
+  if (is_of_few(key)) return false;
   if ((key.name == "f" || key.name == "force") && has_force_table(settings)) return false;
   if (is_excluded(settings, key) || is_damped_otherwise(settings, key)) return false;
   if (is_of_loose_mass(key) && !has_loose_mass(settings)) return false;
@@ -138,9 +140,9 @@ std::string shown_value(const Key& key, Format format) {
 
 /// Whether a key of the commented configuration is in use. Of keys without a default only xs is, since a scene needs
 /// stops; [machine] isn't, since [scene] is, nor are a loose mass, which goes with no stops, what makes R depend on the
-/// speed, and other forces than a sine.
+/// speed, other forces than a sine, and stops that move by themselves.
 bool is_used(const Key& key) {
-  return key.section != "machine" && !is_of_loose_mass(key) && !is_law_of_speed(key) && !is_of_force_shape(key) &&
+  return key.section != "machine" && !is_of_loose_mass(key) && !is_law_of_speed(key) && !is_of_few(key) &&
          (key.has_default() || key.name == "xs");
 }
 

@@ -57,6 +57,12 @@ void check_alternatives(const Settings& settings);
 /// stops and start are none that shaking or friction go with.
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 
+/// Throws ConfigError if something is asked for that isn't known of stops that move by themselves, if one of these
+/// isn't there, if the stops come together at some point of the sweep, or the start is not between them.
+void check_stop_motion(const Settings& settings, const AxisGroups& groups);
+/// Whether a stop moves by itself at some point of the sweep.
+[[nodiscard]] bool stops_move_by_themselves(const Settings& settings);
+
 /// Throws ConfigError if a loose mass lacks a key that it needs, or something is asked for that it doesn't have; and if
 /// at some point of the sweep it has no wall or no force that it needs, its walls are in the wrong order, or it doesn't
 /// start between them.

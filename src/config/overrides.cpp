@@ -246,6 +246,9 @@ void let_command_line_win(Settings& settings) {
     replace(settings, pair.both, pair.one), replace(settings, pair.both, pair.other);
     replace_half(settings, pair, pair.one, pair.other), replace_half(settings, pair, pair.other, pair.one);
   }
+  constexpr Parameter alike("stop_amplitude");  // of both, in a frame that moves with them
+  for (const Parameter apart : {Parameter("stop_amplitude_lower"), Parameter("stop_amplitude_upper")})
+    exclude(settings, alike, apart), replace(settings, alike, apart), replace(settings, apart, alike);
   let_one_way_to_damp_stops_win(settings, all_pairs);
   for (const auto& [keys, is_soft] :
        {std::pair{of_stops, &is_soft_somewhere}, std::pair{of_walls, &is_soft_wall_somewhere}}) {

@@ -24,8 +24,8 @@ std::vector<std::string_view> keys_of_motion(const Settings& settings) {
   const bool is_housed = has_loose_mass(settings);
   for (const Parameter parameter : all_parameters) {
     const bool is_its = is_housed ? is_of_housed(settings, parameter) : !parameter.is_loose();
-    if (parameter.is_in(settings.scene_section) && parameter.role() != Role::start && is_its &&
-        !parameter.row().is_with_unit)
+    if (parameter.is_in(settings.scene_section) && parameter.role() != Role::start &&
+        parameter.role() != Role::stop_motion && is_its && !parameter.row().is_with_unit)
       names.push_back(parameter.key());
   }
   return names;

@@ -165,7 +165,8 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
   const Placed lower = symmetric ? symmetric_stop(settings, groups, -1) : placed(settings, groups, "stop_lower");
   const Placed upper = symmetric ? symmetric_stop(settings, groups, 1) : placed(settings, groups, "stop_upper");
   if (!symmetric) compare(lower, upper, is_below, "stop_lower < stop_upper");
-  if (settings.given("start_period")) return;  // it starts on the lower stop
+  if (settings.given("start_period")) return;      // it starts on the lower stop
+  if (stops_move_by_themselves(settings)) return;  // where they are at the start is known to `check_stop_motion`
   // along `follow` only the first point starts from [scene]; a later one beyond a rigid stop is moved onto it
   const auto followed = followed_dimension(settings, groups);
   const auto at_start = [&](Placed quantity) {

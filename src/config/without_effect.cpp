@@ -43,11 +43,16 @@ bool zero(double value) { return value == 0; }
 bool unshaken(const Settings& settings) {
   return everywhere(settings, "stop_amplitude", zero) && everywhere(settings, "base_amplitude", zero);
 }
+bool lower_stands(const Settings& settings) { return everywhere(settings, "stop_amplitude_lower", zero); }
+bool upper_stands(const Settings& settings) { return everywhere(settings, "stop_amplitude_upper", zero); }
+bool none_moves(const Settings& settings) {
+  return unshaken(settings) && lower_stands(settings) && upper_stands(settings);
+}
 bool undriven(const Settings& settings) {
   if (has_force_table(settings)) return given_everywhere(settings, "force_factor", zero);
   return everywhere(settings, "f", zero) && everywhere(settings, "force", zero);
 }
-bool unforced(const Settings& settings) { return undriven(settings) && unshaken(settings); }
+bool unforced(const Settings& settings) { return undriven(settings) && none_moves(settings); }
 bool has_no_duty(const Settings& settings) { return !has_duty(waveform_of(settings)); }
 bool has_no_rise(const Settings& settings) { return waveform_of(settings) != Waveform::trapezoid; }
 /// Whether nothing is observed that frame decides.
@@ -139,9 +144,13 @@ constexpr Rule rules[] = {
     {"scene", "force_rise", has_no_rise, "beside this shape of the force", "write force_shape = \"trapezoid\""},
     {"scene", "force_factor", [](const Settings& settings) { return !has_force_table(settings); },
      "without force_table", "give that"},
-    {"scene", "stop_phase", unshaken, "without stop_amplitude or base_amplitude", "give one of them"},
+    {"scene", "stop_phase", none_moves, "without stop_amplitude or base_amplitude", "give one of them"},
+    {"scene", "stop_phase_lower", lower_stands, "without stop_amplitude_lower", "give that"},
+    {"scene", "stop_phase_upper", upper_stands, "without stop_amplitude_upper", "give that"},
     {"scene", "stop_stiffness", no_stops, "without stops", or_stops},
     {"scene", "stop_stiffness_lower", no_lower, "without a lower stop", "give stop_lower"},
+    {"scene", "stop_amplitude_lower", no_lower, "without a lower stop", "give stop_lower"},
+    {"scene", "stop_amplitude_upper", no_upper, "without an upper stop", "give stop_upper"},
     {"scene", "stop_stiffness_upper", no_upper, "without an upper stop", "give stop_upper"},
     {"scene", "stop_damping", no_soft_stop, "without a soft stop", or_soft},
     {"scene", "stop_damping_lower", no_soft_lower, "without a soft lower stop", or_soft},

@@ -10,7 +10,7 @@ namespace clatter::lanes {
 bool accepts(const point::WorkItem& item) {
   const bool is_transient = item.problem.time.mode == steady::Mode::transient;
   const bool has_work = is_transient ? !item.effects.soft : item.effects.stops();  // lanes settle soft contacts only
-  return has_work && !item.effects.loose && accepts(item.problem);
+  return has_work && !item.effects.loose && !item.effects.own_motion && accepts(item.problem);
 }
 
 point::PointResult run_in_lanes(const point::WorkItem& item, std::size_t times, InstructionSet arch,

@@ -214,7 +214,7 @@ class ArcConstants {
   [[nodiscard]] static Number counting_frequency_of(const BasicOscillator<Other>& oscillator) {
     using std::sqrt;
     if constexpr (E.stiffness)
-      if (oscillator.forcing == 0 && oscillator.stiffness > 0) return sqrt(Number(oscillator.stiffness));
+      if (!is_driven(oscillator) && oscillator.stiffness > 0) return sqrt(Number(oscillator.stiffness));
     return Number(counting_frequency(oscillator));
   }
   void set_stiffness(const Number& stiffness);

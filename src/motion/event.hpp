@@ -36,6 +36,10 @@ struct Event {
         "reversal", "strike", "press",   "hold",  "wall touch", "wall renewal", "wall separation"};
     return words[static_cast<std::size_t>(kind)];
   }
+  /// The motion of a stop by itself at an event on it.
+  struct StopMotion {
+    double velocity = 0.0, acceleration = 0.0;
+  };
   /// The main mass at an event of a loose one: its displacement, and its velocities on both sides.
   struct Main {
     double place = 0.0, before = 0.0, after = 0.0;
@@ -44,17 +48,19 @@ struct Event {
   Kind kind = Kind::impact;
   Side side = Side::none;  ///< the stop, or the wall; none: friction alone holds or turns a mass
   double time = 0.0;       ///< tau since observation began; of a time that lasts its beginning
-  double before = 0.0;     ///< velocity before it, of a loose mass z'; of a chatter at its beginning
-  double length = 0.0;     ///< of what lasts, tau
-  double after = 0.0;      ///< velocity after it, of a loose mass z'; of a chatter at its end
-  double place = 0.0;      ///< displacement, of a loose mass z; on a stop or a wall that of these
-  double turns = 0.0;      ///< of a contact: forcing periods since the section before it, 0 ... 1
-  bool held = true;        ///< of what lasts: at rest; false: a chatter, or a force within rounding of 0 is waited for
-  bool has_arc = false;    ///< of what lasts: an arc shows it, too, since a loose mass moves meanwhile
-  double carried = 0.0;    ///< of a rest and a stick: the loose mass, over the main one, that it carries meanwhile
-  double rubbing = 0.0;    ///< of these: the friction of a loose mass that slides meanwhile
+  double before = 0.0;   ///< velocity before it, of a loose mass z', of a stop that moves by itself relative to it; of
+                         ///< a chatter at its beginning
+  double length = 0.0;   ///< of what lasts, tau
+  double after = 0.0;    ///< velocity after it, likewise; of a chatter at its end
+  double place = 0.0;    ///< displacement, of a loose mass z; on a stop or a wall that of these
+  double turns = 0.0;    ///< of a contact: forcing periods since the section before it, 0 ... 1
+  bool held = true;      ///< of what lasts: at rest; false: a chatter, or a force within rounding of 0 is waited for
+  bool has_arc = false;  ///< of what lasts: an arc shows it, too, since a loose mass, or the stop, moves meanwhile
+  double carried = 0.0;  ///< of a rest and a stick: the loose mass, over the main one, that it carries meanwhile
+  double rubbing = 0.0;  ///< of these: the friction of a loose mass that slides meanwhile
   double a_before = 0.0, a_after = 0.0;  ///< of a reversal: the accelerations, between which friction makes it jump
   Main main{};                           ///< of a strike and a press
+  StopMotion stop{};                     ///< of the stop of a contact or a rest
   bool of_wall = false;                  ///< of a loose mass, but told as one of a mass between stops
 
   [[nodiscard]] double end() const { return time + length; }

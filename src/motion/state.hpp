@@ -33,6 +33,7 @@ struct State {
                                 ///< or friction does, at its static level
   Side from_stop = Side::none;  ///< the stop that the present flight began on
   Number offset{};              ///< x minus the position of that stop: keeps the digits of a flight that a section cuts
+  Number departure{};           ///< velocity relative to that stop, if it moves by itself, for the same reason
   Side within = Side::none;     ///< the soft stop beyond whose position the mass is; then also `from_stop`
   bool pressed = false;         ///< that stop pushes the mass; false: the mass outruns it
   bool chatters = false;        ///< flies in a chatter that is summed, so its impacts aren't told

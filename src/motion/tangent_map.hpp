@@ -75,8 +75,10 @@ class TangentMap {
     const Number before(impact.before), after(impact.after);
     if (before == 0) return;  // it touches, and the velocity is not reversed
     const Restitution<Number> law = restitution_at<Number>(stops_, impact.side);
-    const Number ratio = -law.share(before), slope = law.derivative(before), force = force_ - k_ * impact.place;
-    const Number a_before = force - 2 * h_ * before, a_after = force - 2 * friction_ - 2 * h_ * after;
+    const Number ratio = -law.share(before), slope = law.derivative(before), carried(impact.stop.velocity),
+                 force = force_ - k_ * impact.place - impact.stop.acceleration;
+    const Number a_before = force - 2 * h_ * (before + carried),
+                 a_after = force - 2 * friction_ - 2 * h_ * (after + carried);
     multiply({{ratio, Number(0), (a_after - slope * a_before) / before, slope}, ratio * slope});
   }
   /// The damper of a soft stop pushes from the touch on, so the acceleration jumps (eq. 53); where the mass leaves the

@@ -68,10 +68,10 @@ class Attractor::Observer {
   /// The end of a period is its beginning. Unforced motion that goes on loses nothing, and is no attractor.
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) const {
     if (span.transient || span.undecided) return {};
-    if (span.scene.oscillator.forcing == 0 && !span.stands_still) return {};
+    if (!is_driven(span.scene.oscillator) && !span.stands_still) return {};
     Values values{
         .attractor_x = x, .attractor_v = v, .attractor_periods = span.periodic ? std::round(span.turns) : 0.0};
-    if (span.scene.oscillator.forcing == 0) values.attractor_v = 0.0, values.attractor_periods = 1.0;
+    if (!is_driven(span.scene.oscillator)) values.attractor_v = 0.0, values.attractor_periods = 1.0;
     values.attractor_phase = span.theta;  // after whole periods that of the beginning
     return values;
   }

@@ -161,7 +161,7 @@ struct ObservedSpan {
   /// Whether it is a whole number of forcing periods, as the sums of harmonics and sections in lanes need.
   [[nodiscard]] bool has_whole_turns() const { return std::abs(turns - std::round(turns)) <= 1e-9; }
   /// Whether it counts as one period of its own: a transient, and a period of free motion.
-  [[nodiscard]] bool counts_as_one_period() const { return transient || (scene.oscillator.forcing == 0 && periodic); }
+  [[nodiscard]] bool counts_as_one_period() const { return transient || (!is_driven(scene.oscillator) && periodic); }
 };
 
 }  // namespace clatter::observables

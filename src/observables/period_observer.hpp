@@ -37,7 +37,7 @@ class Period::Observer {
     if (!span.periodic && !span.transient && !span.undecided) values.period_ratio = 0.0;
     if (!span.periodic || span.stands_still || !moves_) return values;
     values.period = span.total;
-    const bool forced = span.scene.oscillator.forcing != 0;
+    const bool forced = is_driven(span.scene.oscillator);
     if (forced) values.period_ratio = span.turns;
     if (!forced) values.eigenfrequency = 2 * pi<double>() / span.total;
     return values;

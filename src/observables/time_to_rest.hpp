@@ -46,13 +46,16 @@ class TimeToRest::Observer {
  public:
   Observer(const Settings&, const ObservedSpan&) {}
 
-  /// With a loose mass an arc shows a time for which the main one is held, too.
+  /// With a loose mass, or on a stop that moves, an arc shows a time for which the main mass is held, too.
   template <class A>
   void arc(const A& arc, double begin, double length) {
     const bool is_held = std::exchange(is_held_, false);
     if (!(length > 0)) return;
-    if constexpr (motion::Housed<A>)
+    if constexpr (motion::Housed<A>) {
       if (is_held && stands(arc.loose)) return rest(begin, begin + length);
+    } else if (is_held) {
+      return rest(begin, begin + length);
+    }
     since_.reset();
   }
   /// A time in which the mass isn't held is the end of a chatter, which is motion, or that of a force too low to be
@@ -72,7 +75,7 @@ class TimeToRest::Observer {
   [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
     constexpr double rounding = 1e-9;
     if (!span.transient || !since_ || until_ < span.total * (1 - rounding)) return {};
-    const double period = span.scene.oscillator.forcing != 0 ? span.total / span.turns : 0.0;
+    const double period = is_driven(span.scene.oscillator) ? span.total / span.turns : 0.0;
     const bool is_for_good = until_ - *since_ >= period * (1 - rounding) && (period > 0 || until_ > *since_);
     return {is_for_good ? *since_ : no_value};
   }

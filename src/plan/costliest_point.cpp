@@ -114,7 +114,7 @@ double impacts_without_loss(const point::Problem& scene) {
   const Stops& stops = scene.stops;
   const auto keeps = [&](Side side) { return !is_soft(stops, side) && !takes_energy(stops, side); };
   if (!keeps(Side::lower) && !keeps(Side::upper)) return 0;
-  if (scene.time.mode == steady::Mode::steady && o.forcing == 0)
+  if (scene.time.mode == steady::Mode::steady && !is_driven(o))
     return 0;  // its period is known in closed form, or it comes to a standstill
   const Requirements needs = requirements_of(scene, duration_of(scene.time));
   const bool lower = needs.effects.lower && keeps(Side::lower), upper = needs.effects.upper && keeps(Side::upper);

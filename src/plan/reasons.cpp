@@ -60,6 +60,8 @@ Reason damping_reason(const Oscillator& oscillator) {
 }
 
 Reason forcing_reason(const Oscillator& oscillator) {
+  if (oscillator.forcing == 0 && oscillator.paces_stops)
+    return {"forcing", true, "f = 0, but as a stop that moves sees it, the mass is forced"};
   if (oscillator.forcing == 0) return {"forcing", false, "f = 0: no forcing"};
   const ForceShape& shape = oscillator.shape;
   std::string said = "f = " + text(oscillator.forcing);
@@ -82,9 +84,22 @@ Reason shaking_reason(const point::Problem& scene) {
   return {"shaking", true, key + ": " + frame + " the force f above, its phase " + text(scene.shaking.lead) + " ahead"};
 }
 
+/// Stops that move by themselves.
+Reason stop_motion_reason(const point::Problem& scene) {
+  std::string said;
+  for (const Side side : {Side::lower, Side::upper}) {
+    const auto& [amplitude, phase] = motion_of(scene.stops, side);
+    if (amplitude == 0) continue;
+    said += (said.empty() ? "" : ", ") + std::string(side == Side::lower ? "the lower" : "the upper") + " one by " +
+            text(amplitude) + ", its phase " + text(phase) + " ahead";
+  }
+  return {"stops move", true, said + ": contacts are found as each stop sees the mass"};
+}
+
 Reason resonance_reason(const Oscillator& oscillator) {
   if (oscillator.stiffness <= 0) return {"resonance", false, "no spring that a force could be in resonance with"};
   const double distance = std::hypot(oscillator.damping, oscillator.frequency - 1);
+  if (oscillator.paces_stops) return {"resonance", true, "each stop that moves sees another force"};
   if (oscillator.forcing == 0) return {"resonance", false, "f = 0: nothing to resonate with"};
   if (!oscillator.shape.is_sine())
     return {"resonance", true, "a force in pieces: in each of them response and transient are computed together"};
@@ -127,6 +142,7 @@ Reason stop_reason(const point::Problem& scene, const Requirements& needs, bool 
     return {name, true, "the start is the end of the point before, which isn't known yet"};
   const double reach =
       needs.free_reach < gap ? needs.reach : needs.free_reach;  // pushed there by the other stop, or not
+  if (needs.effects.own_motion) return {name, true, "one that moves may be met at any displacement"};
   if (!(reach < infinity)) return {name, true, "nothing bounds " + displacement(scene)};
   return {name, true,
           displacement(scene) + " may reach " + compared(reach, " >= ", gap) + bound_contents(needs.effects)};
@@ -216,6 +232,8 @@ Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
     return {effect, false, "a soft stop holds no mass, and no rigid one in reach can"};
   const bool lower = needs.effects.lower && !is_soft(scene.stops, Side::lower),
              upper = needs.effects.upper && !is_soft(scene.stops, Side::upper);
+  if (needs.effects.own_motion && needs.effects.rest)
+    return {effect, true, "a stop that moves can be pressed by its motion"};
   const bool lower_first = lower && (!upper || needs.lower_gap < needs.upper_gap);
   const double gap = lower_first ? constant_force(scene.oscillator, scene.stops.lower)
                                  : -constant_force(scene.oscillator, scene.stops.upper);
@@ -266,6 +284,7 @@ std::vector<Reason> reasons_of(const point::Problem& scene) {
   if (has_soft_stop(scene.stops)) reasons.push_back(soft_reason(scene, needs.effects));
   if (needs.effects.friction) reasons.push_back(friction_reason(scene));
   if (is_shaken(scene.shaking)) reasons.push_back(shaking_reason(scene));
+  if (needs.effects.own_motion) reasons.push_back(stop_motion_reason(scene));
   for (Reason& reason : reasons) {
     const bool has_no_set = effect_set_of(kept_in(needs.effects, reason.effect)) == effect_set_of(needs.effects);
     if (!reason.required && !has_no_set) reason.saving = measured_saving(reason.effect);

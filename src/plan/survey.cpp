@@ -23,7 +23,7 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Whether motion without stops reaches its final form: the steady response, free vibration, or standstill in time.
 bool comes_to_its_end(const point::Problem& scene, double time) {
   const Oscillator& o = scene.oscillator;
-  if (o.forcing != 0) return o.damping > 0 && o.shape.is_sine();
+  if (is_driven(o)) return o.damping > 0 && o.shape.is_sine();
   const double x = scene.start.displacement - equilibrium_of(o), v = scene.start.velocity;
   const double scale = std::max({std::abs(scene.start.displacement), std::abs(v), std::abs(equilibrium_of(o))});
   return o.damping == 0 || fading_time(o, {x, v}, scene.time.tolerance * scale) <= time;
@@ -46,7 +46,7 @@ Bounds periods_of(const point::Problem& scene, const Effects& effects) {
   }
   if (scene.integration.method != stepping::Method::exact) return {2, longest + static_cast<double>(time.window)};
   if (!effects.stops() && comes_to_its_end(scene, longest * period)) return {1, 1};
-  if (o.forcing == 0 && o.damping == 0 && !effects.dissipation) return {0, 1};
+  if (!is_driven(o) && o.damping == 0 && !effects.dissipation) return {0, 1};
   return {2, longest * 1.25 + std::min(64.0, longest) + static_cast<double>(time.window)};
 }
 
@@ -95,7 +95,7 @@ void examine(const sweep::Sweep& sweep, const Sample::Draw& draw, bool lanes_run
   survey.lower.add({needs.effects.lower, to_lower}), survey.upper.add({needs.effects.upper, to_upper});
   const Stops walls = walls_of(scene.loose);
   const bool strikes_take = takes_energy(walls, Side::lower) || takes_energy(walls, Side::upper);
-  survey.lasting = survey.lasting || (scene.time.mode == steady::Mode::steady && scene.oscillator.forcing != 0 &&
+  survey.lasting = survey.lasting || (scene.time.mode == steady::Mode::steady && is_driven(scene.oscillator) &&
                                       scene.oscillator.damping == 0 && !needs.effects.dissipation &&
                                       !needs.effects.friction && !(needs.effects.loose && strikes_take));
 }

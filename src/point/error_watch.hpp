@@ -18,11 +18,13 @@ class ErrorWatch {
 
   template <Effects Of>
   void arc(const motion::Arc<Number, Of>& arc, double begin, double length) {
+    if (std::exchange(shows_rest_, false)) return;
     if (held_by_ != Side::none) releases_[index_of(std::exchange(held_by_, Side::none))] = true;
     in_double_.show(arc, [&](const auto& rounded) { growth_.arc(rounded, begin, length); });
   }
   void event(const motion::Event& event) {
     if (event.kind == motion::Event::Kind::rest) held_by_ = event.side;
+    shows_rest_ = event.lasts() && event.has_arc && event.length > 0;
     if (event.lasts() && event.held && event.length < shortest_rest) return;
     growth_.event(event);
     if (!event.held) growth_.delay(period_ * epsilon<double>() / static_cast<double>(epsilon<Number>()));
@@ -41,6 +43,7 @@ class ErrorWatch {
   InDouble<E> in_double_;
   double period_;
   Side held_by_ = Side::none;
+  bool shows_rest_ = false;  ///< the next arc, of a mass that stays on a stop which moves
   std::array<bool, 2> releases_{};
 };
 

@@ -70,11 +70,11 @@ class Point {
       result_ = {};  // of its values those that are finite would look right
       return broken(state, steady::Status::not_finite);
     }
-    if (problem_.observe.settling && problem_.oscillator.forcing != 0)
+    if (problem_.observe.settling && is_driven(problem_.oscillator))
       result_.settling_periods =
           settling_periods(integrator_, start(), observed_, problem_.time, observables::Settling::settled,
                            factor_of(problem_.units, Quantity::velocity), problem_);
-    const bool grazes = span_.periodic && problem_.oscillator.forcing != 0 && grazing_is_told(observers);
+    const bool grazes = span_.periodic && is_driven(problem_.oscillator) && grazing_is_told(observers);
     return result_with(grazes ? steady::Status::grazing : observed_.status, observed_.turns + periods_beyond_);
   }
 
@@ -86,7 +86,7 @@ class Point {
     Observers observers = begin();
     motion::State<double> state = observed_.from;
     const bool steady = observed_.found_by == steady::FoundBy::closed_form && observed_.from.within == Side::none &&
-                        problem_.oscillator.forcing != 0 && problem_.observe.base_frequency == 0;
+                        is_driven(problem_.oscillator) && problem_.observe.base_frequency == 0;
     if (steady) observers.response(span_, state.x);
     stepping::Outcome outcome = stepping::Outcome::completed;
     if (observers.need_flights()) {
@@ -118,7 +118,7 @@ class Point {
   /// Without a force periods are the mass's own, and the phase grows by nu tau all the same: the next point of a chain
   /// may have a force, or may be shaken.
   [[nodiscard]] double force_turns_at_end(const motion::State<double>& state) const {
-    if (problem_.oscillator.forcing != 0) return state.phase_turns;
+    if (is_driven(problem_.oscillator)) return state.phase_turns;
     const double periods = static_cast<double>(observed_.from.periods) + observed_.turns;
     return part_of_turn(problem_.oscillator.frequency * integrator_.period() / (2 * pi<double>()) * periods);
   }
@@ -176,7 +176,7 @@ class Point {
   }
 
   void describe_span() {
-    const bool forced = problem_.oscillator.forcing != 0;
+    const bool forced = is_driven(problem_.oscillator);
     span_.total = observed_.turns * integrator_.period(), span_.turns = observed_.turns;
     span_.periodic = observed_.status == steady::Status::periodic || observed_.status == steady::Status::creeping;
     span_.undecided = observed_.status == steady::Status::undecided;

@@ -19,6 +19,7 @@ template <class Number>
           .released = state.released,
           .from_stop = state.from_stop,
           .offset = static_cast<double>(state.offset),
+          .departure = static_cast<double>(state.departure),
           .within = state.within,
           .pressed = state.pressed,
           .chatters = state.chatters,
@@ -73,6 +74,8 @@ class InDouble {
  private:
   template <class Mass, class Number, Effects Of, class Function>
   void show_of(const Mass& mass, const motion::Arc<Number, Of>& arc, Function& function) const {
+    if constexpr (E.own_motion)
+      if (move_by_themselves(mass.stops())) return show_seen(arc, function);
     if constexpr (E.soft)
       if (const Side side = arc.constants().stop.side; side != Side::none) {
         const auto stop = motion::soft_stop_at<double>(mass.stops(), side);
@@ -82,6 +85,16 @@ class InDouble {
       if (const auto& c = arc.constants(); c.h == 0 && c.k == 0 && c.f == 0 && c.load == 0)
         return show_with(arc, housing_.held(c.carried != 0), function);
     if constexpr (Of == Mass::effects.arc()) show_with(arc, free(mass, arc), function);
+  }
+  /// Between stops that move by themselves an arc may be of a mass on a stop, or of one that a stop pushes, over the
+  /// base.
+  template <class Number, Effects Of, class Function>
+  static void show_seen(const motion::Arc<Number, Of>& arc, Function& function) {
+    const auto d = [](const Number& y) { return static_cast<double>(y); };
+    const auto& c = arc.constants();
+    auto constants = motion::ArcConstants<double, Of>::of(d(c.h), d(c.f), d(c.nu), d(c.load), d(c.k));
+    constants.stop = {c.stop.side, d(c.stop.position), d(c.stop.stiffness), d(c.stop.damping)};
+    show_with(arc, constants, function);
   }
   /// The constants of a free mass, in the direction of an arc's slip if friction acts on it.
   template <class Mass, class A>

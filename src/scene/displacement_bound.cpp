@@ -241,7 +241,7 @@ bool is_pushed_away(const Scene& scene, double x, double v, const SineCosine<dou
 bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
   const Oscillator& o = scene.oscillator;
   if (has_friction(scene.friction) || !o.shape.is_sine()) return is_pushed_away(scene, x, v, phase);
-  const Stops& stops = scene.stops;
+  const Stops stops = innermost(scene.stops);
   if (grows_at_resonance(scene)) return true;
   if (!(o.stiffness <= 0) || (std::isfinite(stops.lower) && std::isfinite(stops.upper))) return false;
   const PhasePoint free = transient_of(o, {x - equilibrium_of(o), v, phase.sine, phase.cosine});

@@ -32,6 +32,7 @@ struct Effects {
   bool soft = false;                  ///< a soft stop in reach
   bool friction = false;              ///< dry friction
   bool loose = false;                 ///< a loose mass between walls that the main mass carries
+  bool own_motion = false;            ///< a stop in reach that moves by itself
 
   [[nodiscard]] constexpr bool stops() const { return lower || upper; }
 
@@ -51,7 +52,8 @@ struct Effects {
   const bool stiffness = all.stiffness == some.stiffness || ((all.soft || all.loose) && all.stiffness);
   return damping && stiffness && all.forcing >= some.forcing && all.load >= some.load && all.lower >= some.lower &&
          all.upper >= some.upper && all.dissipation >= some.dissipation && all.rest >= some.rest &&
-         all.soft >= some.soft && all.friction >= some.friction && all.loose == some.loose;
+         all.soft >= some.soft && all.friction >= some.friction && all.loose == some.loose &&
+         all.own_motion >= some.own_motion;
 }
 
 namespace effect_sets {
@@ -80,7 +82,7 @@ namespace effect_sets {
 }
 [[nodiscard]] constexpr Effects with_friction(Damping damping, Forcing forcing) {
   Effects effects = with_soft_stops(damping, forcing);
-  effects.friction = true;
+  effects.friction = effects.own_motion = true;
   return effects;
 }
 /// The main mass has no stops. While a wall presses the loose mass the two move as one, on a spring of another k.
@@ -91,7 +93,7 @@ namespace effect_sets {
 /// A loose mass, and a main mass with stops of any kind and friction.
 [[nodiscard]] constexpr Effects with_everything(Damping damping, Forcing forcing) {
   Effects effects = with_friction(damping, forcing);
-  effects.loose = true;
+  effects.loose = true, effects.own_motion = false;
   return effects;
 }
 
@@ -103,9 +105,9 @@ namespace effect_sets {
 /// critical damping, which is rare. A stiffness other than 1 has two sets that contain all the rest: points with k > 0
 /// are run with k = 1, in other units of time, so only those without a spring or with an unstable one need them.
 /// Soft stops need them, too, as the mass moves on another spring while it is in contact; and so does friction, which
-/// has two sets of its own, as it divides each flight into slips. A loose mass has two, too: its motion has twice as
-/// many numbers, and other events; and two more if its main mass has stops or friction. src/scene/README.md has the
-/// cost of each effect.
+/// has two sets of its own, as it divides each flight into slips; these serve stops that move by themselves, too. A
+/// loose mass has two, too: its motion has twice as many numbers, and other events; and two more if its main mass has
+/// stops or friction. src/scene/README.md has the cost of each effect.
 inline constexpr std::array compiled_effects{
     effect_sets::free_of_stops(Damping::none, Forcing::none),
     effect_sets::free_of_stops(Damping::light, Forcing::regular),
@@ -143,7 +145,7 @@ inline constexpr std::array compiled_effects{
 [[nodiscard]] inline bool cheaper(const Effects& one, const Effects& other) {
   const auto key = [](const Effects& e) {
     return std::tuple(effect_set_of(e), e.damping, e.forcing, e.stiffness, e.load, e.lower, e.upper, e.dissipation,
-                      e.rest, e.soft, e.friction, e.loose);
+                      e.rest, e.soft, e.friction, e.loose, e.own_motion);
   };
   return key(one) < key(other);
 }
@@ -187,7 +189,7 @@ inline constexpr double secular_distance = 1.0 / 16.0;
     return rotates ? effect_sets::with_everything(Damping::light, Forcing::secular)
                    : effect_sets::with_everything(Damping::heavy, Forcing::regular);
   }
-  if (has_friction(scene.friction))
+  if (has_friction(scene.friction) || move_by_themselves(scene.stops))
     return rotates ? effect_sets::with_friction(Damping::light, Forcing::secular)
                    : effect_sets::with_friction(Damping::heavy, Forcing::regular);
   if (!has_soft_stop(scene.stops)) return all_effects(scene.oscillator);
@@ -250,7 +252,8 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
   if (has_loose_mass(scene.loose))
     return has_events_of_its_own(scene) ? effect_sets::with_everything(damping, Forcing::regular)
                                         : effect_sets::with_loose_mass(damping, Forcing::regular);
-  if (has_friction(scene.friction)) return effect_sets::with_friction(damping, Forcing::regular);
+  if (has_friction(scene.friction) || move_by_themselves(scene.stops))
+    return effect_sets::with_friction(damping, Forcing::regular);
   if (!has_soft_stop(scene.stops)) return general_effects(scene.oscillator);
   return effect_sets::with_soft_stops(damping, Forcing::regular);
 }
@@ -295,7 +298,7 @@ decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function)
 /// The same for a scene, which may have soft stops and friction.
 template <class Function>
 decltype(auto) with_any_stops(const Scene& scene, Function&& function) {
-  if (has_friction(scene.friction)) {
+  if (has_friction(scene.friction) || move_by_themselves(scene.stops)) {
     if (rotates(scene.oscillator))
       return function.template operator()<effect_sets::with_friction(Damping::light, Forcing::secular)>();
     return function.template operator()<effect_sets::with_friction(Damping::heavy, Forcing::regular)>();

@@ -42,7 +42,7 @@ using GivenScene = BasicGivenScene<double>;
 /// Whether a force or a shaking has a frequency.
 template <class Number>
 [[nodiscard]] bool has_frequency(const BasicGivenScene<Number>& given) {
-  const bool is_driven = given.oscillator.forcing != 0 || is_shaken(given.shaking);
+  const bool is_driven = given.oscillator.forcing != 0 || is_shaken(given.shaking) || move_by_themselves(given.stops);
   return is_driven && given.oscillator.frequency != 0;
 }
 
@@ -71,7 +71,7 @@ template <class Number, class Unit>
   const Number& m = given.mass;
   const Number force = units.stiffness * (m / units.mass);  // that gives a unit of displacement to k = 1
   BasicScene<Number> scene = given;
-  auto& [h, f, nu, load, k, shape] = scene.oscillator;
+  auto& [h, f, nu, load, k, shape, paces] = scene.oscillator;
   f = f / force, load = load / force, k = k / force;
   scene.friction.kinetic = scene.friction.kinetic / force;
   scene.friction.static_level = scene.friction.static_level / force;
@@ -125,7 +125,8 @@ template <class Number, class Unit>
   if (!is_in_own_units) scene = detail::in_units(given, units);
   if (scene.oscillator.shape.table != nullptr) scene.oscillator.forcing = scene.oscillator.forcing * given.force_factor;
   if (is_always_zero(scene.oscillator.forcing)) scene.oscillator.shape = {};  // there is no force
-  const auto complete = [](const Number& kinetic, Number& static_level) {     // 0: the static level isn't given
+  scene.oscillator.paces_stops = move_by_themselves(scene.stops);
+  const auto complete = [](const Number& kinetic, Number& static_level) {  // 0: the static level isn't given
     if (static_level < kinetic || is_always_zero(static_level)) static_level = kinetic;
   };
   complete(scene.friction.kinetic, scene.friction.static_level);
@@ -171,14 +172,17 @@ template <class Number>
 }  // namespace detail
 
 /// The scene in the frame of what is shaken, with the force there in place of the one that was given (eqs. 39 to 41).
-/// With a loose mass, which a moving frame would push, too, it is that of the ground: the shaken base becomes a force.
+/// Stops that move by themselves do so by the phase of that force. With a loose mass, which a moving frame would push,
+/// too, it is that of the ground: the shaken base becomes a force.
 template <class Number>
 [[nodiscard]] BasicScene<Number> in_shaken_frame(BasicScene<Number> scene) {
-  if (!is_shaken(scene.shaking)) return scene;
+  if (!is_shaken(scene.shaking) && !move_by_themselves(scene.stops)) return scene;
   if (has_loose_mass(scene.loose)) return detail::on_the_ground(std::move(scene));
   const auto [amplitude, lead] = force_in_frame(scene.oscillator, scene.shaking);
   scene.oscillator.forcing = amplitude, scene.shaking.lead = lead;
   scene.start.phase += lead;
+  for (BasicStopMotion<Number>* const motion : {&scene.stops.motion_lower, &scene.stops.motion_upper})
+    motion->phase += scene.shaking.phase - lead;
   return scene;
 }
 

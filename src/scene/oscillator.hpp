@@ -19,10 +19,17 @@ struct BasicOscillator {
   Number load{0.0};                 ///< constant force over stiffness, any finite
   Number stiffness{1.0};            ///< k, any finite: 0 without a spring, negative for one that pushes away
   BasicForceShape<Number> shape{};  ///< of the force
+  bool paces_stops = false;         ///< stops move by themselves with its frequency, under a force or without one
 
   friend bool operator==(const BasicOscillator&, const BasicOscillator&) = default;
 };
 using Oscillator = BasicOscillator<double>;
+
+/// Whether a force acts, or stops move by themselves: then a motion is looked at once in each period of that.
+template <class Number = double>
+[[nodiscard]] constexpr bool is_driven(const BasicOscillator<Number>& oscillator) {
+  return oscillator.forcing != 0 || oscillator.paces_stops;
+}
 
 /// The natural frequency of the spring, |k|^(1/2); of an unstable one (k < 0) the rate at which motion departs.
 template <class Number = double>
@@ -35,7 +42,7 @@ template <class Number = double>
 /// force, of which the faster one counts, are both much slower, or one is much faster.
 [[nodiscard]] inline double pace_of(const Oscillator& oscillator) {
   constexpr double much = 16;
-  const double force = oscillator.forcing != 0 ? oscillator.frequency : 0;
+  const double force = is_driven(oscillator) ? oscillator.frequency : 0;
   const double pace = std::max(natural_frequency(oscillator), force);
   return pace > much || (pace > 0 && pace * much < 1) ? pace : 1;
 }
@@ -59,13 +66,15 @@ template <class Number = double>
           oscillator.frequency / rate,
           oscillator.load / k,
           std::copysign(1.0, oscillator.stiffness),
-          oscillator.shape};
+          oscillator.shape,
+          oscillator.paces_stops};
 }
 
-/// The frequency of the periods in which a run is counted: nu under forcing, else that of the spring, 1 if it has none.
+/// The frequency of the periods in which a run is counted: nu if something is driven by it, else that of the spring, 1
+/// if it has none.
 template <class Number = double>
 [[nodiscard]] Number counting_frequency(const BasicOscillator<Number>& oscillator) {
-  if (oscillator.forcing != 0) return oscillator.frequency;
+  if (is_driven(oscillator)) return oscillator.frequency;
   return oscillator.stiffness > 0 ? natural_frequency(oscillator) : Number(1);
 }
 

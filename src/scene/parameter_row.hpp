@@ -18,6 +18,7 @@ enum class Role : std::uint8_t {
   force_shape,   ///< of a force in pieces: share of the period of a part, or a factor
   load,          ///< constant force
   shaking,       ///< amplitude of stops or base
+  stop_motion,   ///< of one stop by itself: amplitude, or phase
   friction,      ///< a level of dry friction
   loose_load,    ///< constant acceleration of a loose mass
   position,      ///< of a stop, or of a wall of a loose mass

@@ -17,7 +17,6 @@ inline namespace scene {
 namespace detail {
 
 constexpr std::string_view a_force = "f = 1.0\n", friction_only = "friction = 0.2\n", gap_only = "gap = 3e-3\n",
-                           mass_stops_frequency = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nfrequency = 25.0\n",
                            mass_stops_force = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\n",
                            forced = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\nfrequency = 25.0\n",
                            square_force =

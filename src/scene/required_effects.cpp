@@ -41,10 +41,11 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
   const double x0 = scene.start.displacement;
   const bool in_a_stop = (soft_lower && x0 < stops.lower) || (soft_upper && x0 > stops.upper);
   // a loose mass gives the main one energy, of which no bound is known
+  const bool moves_into = move_by_themselves(stops);  // so do stops that move
   const bool meets_none =
-      !needs.effects.loose && needs.free_reach < needs.lower_gap && needs.free_reach < needs.upper_gap;
+      !needs.effects.loose && !moves_into && needs.free_reach < needs.lower_gap && needs.free_reach < needs.upper_gap;
   if (!meets_none || bounds == Sharpness::sharpest)
-    needs.reach = in_a_stop || needs.effects.loose
+    needs.reach = in_a_stop || needs.effects.loose || moves_into
                       ? infinity
                       : displacement_bound_through_impacts(o, start, duration);  // it stores energy
   Effects& effects = needs.effects;
@@ -52,6 +53,7 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
     effects.lower = std::isfinite(stops.lower) && !(needs.reach < needs.lower_gap);
     effects.upper = std::isfinite(stops.upper) && !(needs.reach < needs.upper_gap);
   }
+  effects.own_motion = move_by_themselves(stops);
   effects.soft = (effects.lower && soft_lower) || (effects.upper && soft_upper);
   effects.dissipation =
       (effects.lower && takes_energy(stops, Side::lower)) || (effects.upper && takes_energy(stops, Side::upper));
@@ -62,8 +64,9 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
   const double pull = has_soft_wall(scene.loose)  // which may press it with any force
                           ? infinity
                           : push + std::abs(scene.loose.ratio * scene.loose.load) + scene.loose.friction_static;
-  effects.rest = (effects.lower && !soft_lower && !(pull < constant_force(o, stops.lower))) ||
-                 (effects.upper && !soft_upper && !(pull < -constant_force(o, stops.upper)));
+  const double accelerates = moves_into ? infinity : pull;
+  effects.rest = (effects.lower && !soft_lower && !(accelerates < constant_force(o, stops.lower))) ||
+                 (effects.upper && !soft_upper && !(accelerates < -constant_force(o, stops.upper)));
   return needs;
 }
 

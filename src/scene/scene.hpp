@@ -55,12 +55,23 @@ template <class Number, class Other>
   const auto& [oscillator, stops, start, shaking, friction, loose] = scene;
   const auto n = [](const Other& number) { return Number(number); };
   const auto law = [](const Restitution<Other>& of) { return Restitution<Number>(of); };
+  const auto moves = [&](const BasicStopMotion<Other>& motion) -> BasicStopMotion<Number> {
+    return {n(motion.amplitude), n(motion.phase)};
+  };
   BasicScene<Number> same;
   same.oscillator = {n(oscillator.damping), n(oscillator.forcing),   n(oscillator.frequency),
-                     n(oscillator.load),    n(oscillator.stiffness), with_numbers<Number>(oscillator.shape)};
-  same.stops = {
-      n(stops.lower),           n(stops.upper),           law(stops.restitution_lower), law(stops.restitution_upper),
-      n(stops.stiffness_lower), n(stops.stiffness_upper), n(stops.damping_lower),       n(stops.damping_upper)};
+                     n(oscillator.load),    n(oscillator.stiffness), with_numbers<Number>(oscillator.shape),
+                     oscillator.paces_stops};
+  same.stops = {n(stops.lower),
+                n(stops.upper),
+                law(stops.restitution_lower),
+                law(stops.restitution_upper),
+                n(stops.stiffness_lower),
+                n(stops.stiffness_upper),
+                n(stops.damping_lower),
+                n(stops.damping_upper),
+                moves(stops.motion_lower),
+                moves(stops.motion_upper)};
   same.start = {n(start.displacement), n(start.velocity), n(start.phase)};
   same.shaking = {n(shaking.stops), n(shaking.base), n(shaking.lead), n(shaking.phase)};
   same.friction = {n(friction.kinetic), n(friction.static_level)};
@@ -85,7 +96,7 @@ template <class Number, class Other>
 /// of the spring or, without spring and load, the middle between the stops. Nothing if stops or load aren't the same on
 /// both sides of it, to rounding. A loose mass is mirrored about the middle of its walls; with a load of its own, or
 /// walls that aren't alike, it has no mirror image; nor has a motion under a force that half a period later isn't its
-/// opposite.
+/// opposite, or between stops of which one moves otherwise than the other.
 [[nodiscard]] inline std::optional<double> mirror_centre(const Scene& scene) {
   const Stops& stops = scene.stops;
   const Oscillator& o = scene.oscillator;
@@ -100,7 +111,8 @@ template <class Number, class Other>
   const bool bounded = std::isfinite(stops.lower) && std::isfinite(stops.upper);
   if (!bounded && (std::isfinite(stops.lower) || std::isfinite(stops.upper))) return std::nullopt;
   const bool alike = stops.restitution_lower == stops.restitution_upper &&
-                     stops.stiffness_lower == stops.stiffness_upper && stops.damping_lower == stops.damping_upper;
+                     stops.stiffness_lower == stops.stiffness_upper && stops.damping_lower == stops.damping_upper &&
+                     (!move_by_themselves(stops) || stops.motion_lower == stops.motion_upper);
   if ((bounded && !alike) || (o.stiffness == 0 && o.load != 0)) return std::nullopt;
   const double middle = bounded ? (stops.lower + stops.upper) / 2 : equilibrium_of(o);
   if (o.stiffness == 0) return middle;

@@ -50,7 +50,7 @@ template <class Number>
 [[nodiscard]] LeadingForce<Number> force_in_frame(const BasicOscillator<Number>& oscillator,
                                                   const BasicShaking<Number>& shaking) {
   using std::cos, std::fma, std::sin;
-  const auto& [h, f, nu, load, k, shape] = oscillator;
+  const auto& [h, f, nu, load, k, shape, paces] = oscillator;
   const auto& [stops, base, lead, phase] = shaking;
   if (is_always_zero(stops) && is_always_zero(base)) return {f, Number(0)};
   if (!is_always_zero(phase)) {
@@ -68,7 +68,7 @@ template <class Number>
 [[nodiscard]] LeadingForce<Number> force_on_ground(const BasicOscillator<Number>& oscillator,
                                                    const BasicShaking<Number>& shaking) {
   using std::cos, std::sin;
-  const auto& [h, f, nu, load, k, shape] = oscillator;
+  const auto& [h, f, nu, load, k, shape, paces] = oscillator;
   const Number along = k * shaking.base, across = 2 * h * nu * shaking.base, &phase = shaking.phase;
   return leading_force(Number(f + along * cos(phase) - across * sin(phase)),
                        Number(along * sin(phase) + across * cos(phase)));
@@ -88,7 +88,7 @@ class FrameMotion {
         nu_(oscillator.frequency),
         phase_(theta + shaking.phase),
         lead_{std::sin(shaking.lead - shaking.phase), std::cos(shaking.lead - shaking.phase)},
-        is_forced_(oscillator.forcing != 0) {}
+        is_forced_(oscillator.forcing != 0 && !oscillator.paces_stops) {}
 
   /// The same backwards: relative motion less absolute motion.
   [[nodiscard]] FrameMotion reversed() const {
@@ -99,7 +99,7 @@ class FrameMotion {
 
   [[nodiscard]] double amplitude() const { return std::abs(b_); }
   [[nodiscard]] double frequency() const { return nu_; }
-  /// Whether a force is left in the moving frame, so that arcs keep its phase.
+  /// Whether a force is left in the moving frame, so that all arcs keep its phase.
   [[nodiscard]] bool is_forced() const { return is_forced_; }
 
   /// Sine and cosine of the phase of the motion a time tau after the beginning.

@@ -13,7 +13,8 @@ namespace detail {
 constexpr std::string_view stops = "xs = 1.0\n", soft = "xs = 1.0\nstop_stiffness = 100.0\n";
 constexpr std::string_view some_mass = "mass = 0.25\n",
                            mass_soft = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nstop_stiffness = 1e5\n",
-                           mass_spring_stops = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\n";
+                           mass_spring_stops = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\n",
+                           mass_stops_frequency = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nfrequency = 25.0\n";
 
 }  // namespace detail
 
@@ -94,6 +95,52 @@ constexpr auto stop_rows() {
           .role = Role::restitution,
           .side = Side::upper,
           .place = of_law<Number, s, &S::restitution_upper, &Restitution<Number>::R>},
+      Row{.key = "stop_amplitude_lower",
+          .quantity = length,
+          .in_scene =
+              {"0", "0.1",
+               "amplitude of the motion of the lower stop by itself, in place of stop_amplitude: it moves as "
+               "amplitude * sin(nu tau + phase + stop_phase + stop_phase_lower) over the base; displacements, x0 "
+               "and v0 are relative to the base, impact speeds to the stop",
+               stops, "amplitude of the motion of the lower stop"},
+          .in_machine = {"0", "1 mm",
+                         "amplitude of the motion of the lower stop by itself, in place of stop_amplitude; "
+                         "displacements, x0 and v0 are relative to the base, impact speeds to the stop",
+                         mass_stops_frequency, "amplitude of the motion of the lower stop"},
+          .other = "stop_amplitude",
+          .role = Role::stop_motion,
+          .side = Side::lower,
+          .place = of_law<Number, s, &S::motion_lower, &BasicStopMotion<Number>::amplitude>},
+      Row{.key = "stop_amplitude_upper",
+          .quantity = length,
+          .in_scene = {"0", "0.1", "amplitude of the motion of the upper stop by itself, in place of stop_amplitude",
+                       stops, "amplitude of the motion of the upper stop"},
+          .in_machine = {"0", "1 mm", "amplitude of the motion of the upper stop by itself, in place of stop_amplitude",
+                         mass_stops_frequency, "amplitude of the motion of the upper stop"},
+          .other = "stop_amplitude",
+          .role = Role::stop_motion,
+          .side = Side::upper,
+          .place = of_law<Number, s, &S::motion_upper, &BasicStopMotion<Number>::amplitude>},
+      Row{.key = "stop_phase_lower",
+          .quantity = angle,
+          .in_scene = {"0", "0.5", "phase by which the lower stop leads stop_phase, rad",
+                       "xs = 1.0\nstop_amplitude_lower = 0.1\n", "lead of the motion of the lower stop"},
+          .in_machine = {"0", "0.5 rad", "phase by which the lower stop leads stop_phase",
+                         "mass = 0.25\ngap = 3e-3\nfrequency = 25.0\nstop_amplitude_lower = 1e-3\n",
+                         "lead of the motion of the lower stop"},
+          .role = Role::stop_motion,
+          .side = Side::lower,
+          .place = of_law<Number, s, &S::motion_lower, &BasicStopMotion<Number>::phase>},
+      Row{.key = "stop_phase_upper",
+          .quantity = angle,
+          .in_scene = {"0", "0.5", "phase by which the upper stop leads stop_phase, rad",
+                       "xs = 1.0\nstop_amplitude_upper = 0.1\n", "lead of the motion of the upper stop"},
+          .in_machine = {"0", "0.5 rad", "phase by which the upper stop leads stop_phase",
+                         "mass = 0.25\ngap = 3e-3\nfrequency = 25.0\nstop_amplitude_upper = 1e-3\n",
+                         "lead of the motion of the upper stop"},
+          .role = Role::stop_motion,
+          .side = Side::upper,
+          .place = of_law<Number, s, &S::motion_upper, &BasicStopMotion<Number>::phase>},
       Row{.key = "stop_stiffness",
           .quantity = stiffness,
           .range = positive_or_infinite,

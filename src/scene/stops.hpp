@@ -21,6 +21,17 @@ enum class Side : std::int8_t { lower = -1, none = 0, upper = 1 };
 
 [[nodiscard]] constexpr Side opposite(Side side) { return static_cast<Side>(-sign_of(side)); }
 
+/// The motion of a stop by itself, in the frame of the base that carries it: amplitude * sin(theta + phase), theta
+/// being the phase of the force.
+template <class Number>
+struct BasicStopMotion {
+  Number amplitude{0.0};  ///< any finite
+  Number phase{0.0};      ///< by which the stop leads the force, rad
+
+  friend bool operator==(const BasicStopMotion&, const BasicStopMotion&) = default;
+};
+using StopMotion = BasicStopMotion<double>;
+
 /// The two stops. At a rigid one the mass keeps a share of its speed (eq. 4): x'+ = -R x'-. A soft one is a spring and
 /// a damper that push the mass back while it is beyond the stop's position (eq. 50), and never pull.
 template <class Number>
@@ -33,10 +44,48 @@ struct BasicStops {
   Number stiffness_upper{std::numeric_limits<double>::infinity()};  ///< kappa of the upper stop, > 0; inf: rigid
   Number damping_lower{0.0};  ///< zeta, damping ratio of the lower stop, >= 0; only of a soft one
   Number damping_upper{0.0};  ///< zeta, damping ratio of the upper stop, >= 0; only of a soft one
+  BasicStopMotion<Number> motion_lower{}, motion_upper{};  ///< of each by itself; 0: it stands in the frame of the base
 
   friend bool operator==(const BasicStops&, const BasicStops&) = default;
 };
 using Stops = BasicStops<double>;
+
+/// The motion of the stop on a side by itself.
+template <class Number>
+[[nodiscard]] const BasicStopMotion<Number>& motion_of(const BasicStops<Number>& stops, Side side) {
+  return side == Side::upper ? stops.motion_upper : stops.motion_lower;
+}
+/// Whether there is a stop that moves by itself.
+template <class Number>
+[[nodiscard]] bool move_by_themselves(const BasicStops<Number>& stops) {
+  return (is_finite(stops.lower) && stops.motion_lower.amplitude != 0) ||
+         (is_finite(stops.upper) && stops.motion_upper.amplitude != 0);
+}
+
+/// The stops where their motion brings them: as far out, or as far in, as it ever does.
+[[nodiscard]] inline Stops outermost(Stops stops) {
+  stops.lower -= std::abs(stops.motion_lower.amplitude), stops.upper += std::abs(stops.motion_upper.amplitude);
+  return stops;
+}
+[[nodiscard]] inline Stops innermost(Stops stops) {
+  stops.lower += std::abs(stops.motion_lower.amplitude), stops.upper -= std::abs(stops.motion_upper.amplitude);
+  return stops;
+}
+
+/// Stops at one phase of their motion by themselves, with their velocities.
+struct StopsNow : Stops {
+  double velocity_lower = 0.0, velocity_upper = 0.0;
+
+  /// At the phase theta of the force, rad, of frequency nu.
+  StopsNow(const Stops& stops, double nu, double theta) : Stops(stops) {
+    const auto move = [&](const StopMotion& motion, double& place, double& velocity) {
+      if (motion.amplitude == 0) return;
+      place += motion.amplitude * std::sin(theta + motion.phase);
+      velocity = motion.amplitude * nu * std::cos(theta + motion.phase);
+    };
+    move(motion_lower, lower, velocity_lower), move(motion_upper, upper, velocity_upper);
+  }
+};
 
 /// Whether there is a soft stop on a side.
 template <class Number>

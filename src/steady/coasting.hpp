@@ -22,7 +22,7 @@ class Coasting {
         scene_(scene),
         tolerance_(tolerance),
         is_possible_(scene.oscillator.damping != 0 && scene.oscillator.shape.is_sine() && !integrator.is_rough() &&
-                     !(E.stops() && response_meets(scene.oscillator, integrator.stops()))) {}
+                     !(E.stops() && response_meets(scene.oscillator, innermost(integrator.stops())))) {}
 
   /// The steady response, if no stop is in reach from a state at a section on and damping removes the rest of the
   /// transient, however long that may take: after `settled` forcing periods of the motion, of which, with those of
@@ -34,9 +34,14 @@ class Coasting {
     const auto [sine, cosine] = integrator_.phase(motion::State<double>{});
     const double middle = equilibrium_of(o);
     const PhaseState now{state.x - middle, state.v, sine, cosine};
-    if (E.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
+    if (E.stops() && !out_of_reach(o, now, innermost(integrator_.stops()))) return std::nullopt;
     const PhasePoint response = response_at(o, sine, cosine), left{now.x - response.x, now.v - response.v};
-    const double x = middle + response.x, most = tolerance_ * std::max(std::abs(x), std::abs(response.v));
+    const double x = middle + response.x;
+    double size = std::max(std::abs(x), std::abs(response.v));
+    if (size == 0)  // without a force, between stops that move by themselves
+      for (const double stop : {scene_.stops.lower, scene_.stops.upper})
+        if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
+    const double most = tolerance_ * size;
     const double periods = fading_time(o, left, most) / integrator_.period();
     if (!(periods < longest_settling)) return std::nullopt;
     motion::State<double> steady = state;

@@ -25,13 +25,18 @@ struct SectionNumbers {
 class BeyondContact {
  public:
   BeyondContact(const Scene& scene, double period)
-      : stops_(rigid_ones(scene.stops)), loose_(scene.loose), within_(same_instant * period) {}
+      : stops_(rigid_ones(scene.stops), scene.oscillator.frequency, scene.start.phase),
+        loose_(scene.loose),
+        within_(same_instant * period) {}
 
   [[nodiscard]] SectionNumbers operator()(SectionNumbers at) const {
-    if (is_ahead(at.x, at.v, stops_.lower, stops_.upper)) [[unlikely]] {
-      const auto stop = motion::stop_at<double>(stops_, at.v > 0 ? Side::upper : Side::lower);
-      const double left = (stop.position - at.x) / at.v, after = stop.law.after(at.v);
-      at.x += (at.v - after) * left, at.v = after;
+    const double to_lower = at.v - stops_.velocity_lower, to_upper = at.v - stops_.velocity_upper;
+    const bool meets_upper = to_upper > 0 && stops_.upper - at.x <= within_ * to_upper,
+               meets_lower = to_lower < 0 && stops_.lower - at.x >= within_ * to_lower;
+    if (meets_upper || meets_lower) [[unlikely]] {
+      const auto stop = motion::stop_at<double>(stops_, meets_upper ? Side::upper : Side::lower);
+      const double w = meets_upper ? to_upper : to_lower, after = stop.law.after(w);
+      at.x += (w - after) * ((stop.position - at.x) / w), at.v += after - w;
     }
     if (is_ahead(at.z, at.w, loose_.lower, loose_.upper)) [[unlikely]] {
       const motion::WallRule<double> rule(loose_);
@@ -44,7 +49,8 @@ class BeyondContact {
   }
   /// Whether a state is that just before an impact on a stop, or just after one.
   [[nodiscard]] bool is_beside(double x, double v) const {
-    return v != 0 && std::min(std::abs(x - stops_.lower), std::abs(x - stops_.upper)) <= within_ * std::abs(v);
+    const auto is_near = [&](double stop, double w) { return w != 0 && std::abs(x - stop) <= within_ * std::abs(w); };
+    return is_near(stops_.lower, v - stops_.velocity_lower) || is_near(stops_.upper, v - stops_.velocity_upper);
   }
 
  private:
@@ -52,7 +58,7 @@ class BeyondContact {
     return v > 0 ? upper - x <= within_ * v : v < 0 && lower - x >= within_ * v;
   }
 
-  Stops stops_;
+  StopsNow stops_;
   LooseMass loose_;
   double within_;  ///< tau
 };

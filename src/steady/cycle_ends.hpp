@@ -76,7 +76,10 @@ class CycleEnds {
     return std::min(std::abs(x - of.lower), std::abs(x - of.upper));
   }
   [[nodiscard]] Approach approach(const State& state) const {
-    const Approach main{nearest(state.x, integrator_.stops()), std::abs(state.v)};
+    const StopsNow stops(integrator_.stops(), scene_.oscillator.frequency, scene_.start.phase);
+    const Approach lower{std::abs(state.x - stops.lower), std::abs(state.v - stops.velocity_lower)},
+        upper{std::abs(state.x - stops.upper), std::abs(state.v - stops.velocity_upper)};
+    const Approach main = lower.gap < upper.gap ? lower : upper;
     if (!has_loose_mass(scene_.loose)) return main;
     const auto [z, w] = motion::place_in_housing(state, scene_.loose);
     const Approach loose{nearest(z, scene_.loose), std::abs(w)};

@@ -65,7 +65,7 @@ template <stepping::Integrator I>
                                                      const Scene& scene, const TimeSettings& time,
                                                      const stepping::Integration& integration) {
   constexpr Effects E = I::effects;
-  const bool forced = E.forcing != Forcing::none && scene.oscillator.forcing != 0;
+  const bool forced = E.forcing != Forcing::none && is_driven(scene.oscillator);
   if (!forced) return FreeSearch(integrator, scene, time, integration.all_effects).run(state);
   if constexpr (E.forcing != Forcing::none) {
     const bool by_shortcuts = I::in_closed_form && integration.shortcuts && !integration.all_effects;

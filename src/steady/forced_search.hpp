@@ -43,6 +43,7 @@ class ForcedSearch {
         time_(time),
         in_lanes_(advanced_by == AdvancedBy::lanes),
         is_rough_(integrator.is_rough()),
+        stops_move_(move_by_themselves(integrator.stops())),
         coasting_(integrator, scene, time.tolerance),
         log_area_of_damping_(-2 * integrator.constants().h * integrator.period()),
         repeat_(time.tolerance, in_lanes_ ? 4 : 1),
@@ -205,7 +206,7 @@ class ForcedSearch {
   /// Whether the last forcing period was spent in one contact. Its motion may be small beside the displacement that
   /// repeats are told by, so it isn't told by them.
   [[nodiscard]] bool stays_in_contact(const motion::State<double>& state) const {
-    if (!E.soft || is_rough_ || section_ == 0) return false;
+    if (!E.soft || is_rough_ || stops_move_ || section_ == 0) return false;
     const motion::Within<double> within = contact_of(state);
     const std::uint64_t itinerary = in_lanes_ ? 0 : PassageObserver::itinerary_in_contact(within.side);
     return within.side != Side::none && within.pressed && passages_[index(1)].itinerary == itinerary;
@@ -214,7 +215,7 @@ class ForcedSearch {
   /// The steady motion in contact with a soft stop, if the stop pushes for ever: if its force on the balanced mass is
   /// larger than the forces that response and transient can take from it. The transient's energy norm never grows.
   [[nodiscard]] std::optional<ObservedTime> pressed(const motion::State<double>& state) const {
-    if (is_rough_ || !scene_.oscillator.shape.is_sine()) return std::nullopt;
+    if (is_rough_ || stops_move_ || !scene_.oscillator.shape.is_sine()) return std::nullopt;
     const motion::Within<double> within = contact_of(state);
     if (within.side == Side::none || !within.pressed) return std::nullopt;
     const auto stop = motion::soft_stop_at<double>(integrator_.stops(), within.side);
@@ -254,7 +255,7 @@ class ForcedSearch {
   /// Whether to look for contracting states at this section: a look costs a tenth of a forcing period, and in lanes an
   /// attempt costs as much as hundreds of them.
   [[nodiscard]] bool pays() const {
-    if (closing_in_ > 0) return false;
+    if (closing_in_ > 0 || stops_move_) return false;
     if (in_lanes_) return section_ >= 64 && ((section_ & (section_ - 1)) == 0 || section_ + 1 == time_.max_periods);
     if (is_rough_) return section_ >= 64 && section_ % 16 == 0;
     return section_ <= long_settling || section_ % 8 == 0;
@@ -303,6 +304,7 @@ class ForcedSearch {
   TimeSettings time_;
   bool in_lanes_;
   bool is_rough_;
+  bool stops_move_;  ///< stops: what is proved of a motion between them takes them for standing ones
   Coasting<E> coasting_;
   double log_area_of_damping_;   ///< logarithm of the factor by which a forcing period shrinks areas without impacts
   bool samples_ = false;         ///< lanes: sections have been left out before this one

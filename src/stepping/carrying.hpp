@@ -9,7 +9,7 @@
 
 #include "motion/walls.hpp"
 #include "stepping/integration.hpp"
-#include "stepping/main_mass.hpp"
+#include "stepping/other_mass.hpp"
 
 /// A main mass with a loose one: its housing, and both as one while a wall presses that, or friction holds it.
 namespace clatter::stepping {
@@ -24,62 +24,36 @@ struct Pressing {
 /// The loop with another main mass: both as one, or one beside which the loose mass flies or slides. Modes take it in
 /// place of the loop.
 template <class Loop, class Mass, bool both_as_one>
-class WithMass {
+class WithMass : public WithOtherMass<Loop, Mass> {
+  using Base = WithOtherMass<Loop, Mass>;
+
  public:
-  using Number = typename Loop::Number;
-  using State = motion::State<Number>;
-  static constexpr Effects effects = Mass::effects;
+  using Number = typename Base::Number;
+  using State = typename Base::State;
   static constexpr bool carries = both_as_one;
 
-  WithMass(Loop& loop, const Mass& mass, const motion::Walls<Number>& walls)
-      : loop_(loop), mass_(mass), walls_(walls) {}
+  WithMass(Loop& loop, const Mass& mass, const motion::Walls<Number>& walls) : Base(loop, mass), walls_(walls) {}
 
-  [[nodiscard]] auto& method() const { return loop_.method(); }
   [[nodiscard]] const auto& walls() const { return walls_; }  ///< of a slide those with its friction
   /// Calls `function(loop)` with that of a main mass beside which the loose one flies, or slides to a side.
   template <class Function>
   decltype(auto) beside(Side towards, Function&& function) const {
-    return loop_.beside(towards, std::forward<Function>(function));
+    return this->loop_.beside(towards, std::forward<Function>(function));
   }
   template <class Stage>
   [[nodiscard]] Outcome run_carrying(Stage& stage) const {
-    return loop_.run_carrying(stage);
+    return this->loop_.run_carrying(stage);
   }
-  [[nodiscard]] bool loses() const { return loop_.loses(); }
-  [[nodiscard]] const auto& held_constants(bool with_loose) const { return loop_.held_constants(with_loose); }
-  [[nodiscard]] bool count_impact() const { return loop_.count_impact(); }
-  [[nodiscard]] static Outcome outcome_at(const motion::Crossing<Number>& crossing) {
-    return Loop::outcome_at(crossing);
-  }
-  [[nodiscard]] static bool finite(const Number& x) { return Loop::finite(x); }
+  [[nodiscard]] bool loses() const { return this->loop_.loses(); }
+  [[nodiscard]] const auto& held_constants(bool with_loose) const { return this->loop_.held_constants(with_loose); }
 
-  [[nodiscard]] const auto& constants() const { return mass_.constants(); }
-  [[nodiscard]] const auto& stops() const { return mass_.stops(); }
-  [[nodiscard]] const auto& slips() const { return mass_.slips(); }
-  [[nodiscard]] const Number& period() const { return mass_.period(); }
-  [[nodiscard]] const Number& start_turns() const { return mass_.start_turns(); }
-  [[nodiscard]] bool has_soft_stops() const { return mass_.has_soft_stops(); }
-  [[nodiscard]] bool is_rough() const { return mass_.is_rough(); }
-  [[nodiscard]] auto phase(const State& state) const { return mass_.phase(state); }
-  [[nodiscard]] auto held(const State& state) const { return mass_.held(state, push(state)); }
-  [[nodiscard]] auto holding_at(const State& state) const { return mass_.holding_at(state, push(state)); }
-  [[nodiscard]] auto holding_stop(const State& state) const { return mass_.holding_stop(state, push(state)); }
+  [[nodiscard]] auto held(const State& state) const { return this->mass_.held(state, push(state)); }
+  [[nodiscard]] auto holding_at(const State& state) const { return this->mass_.holding_at(state, push(state)); }
+  [[nodiscard]] auto holding_stop(const State& state) const { return this->mass_.holding_stop(state, push(state)); }
   /// The force of a soft wall on the main mass, without which that is known.
   [[nodiscard]] Number push(const State& state) const { return both_as_one ? Number(0) : walls_.push(state.loose); }
-  [[nodiscard]] Number anchor(const State& state) const { return mass_.anchor(state); }
-  [[nodiscard]] Number shortest_hop() const { return mass_.shortest_hop(); }
-  template <class Of>
-  [[nodiscard]] auto motion(const Of& constants, const State& state, const Number& released = Number(0)) const {
-    return mass_.motion(constants, state, released);
-  }
-  template <class Function>
-  decltype(auto) in_contact(Side side, Function&& function) const {
-    return mass_.in_contact(side, std::forward<Function>(function));
-  }
 
  private:
-  Loop& loop_;
-  const Mass& mass_;
   const motion::Walls<Number>& walls_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "motion/chatter.hpp"
 #include "stepping/modes.hpp"
+#include "stepping/stop_frame.hpp"
 
 namespace clatter::stepping {
 
@@ -33,7 +34,10 @@ class EventDriven : public IntegratorBase<N, E> {
       : Base(scene, in_reach, limits),
         housing_(static_cast<const MainMass<N, E>&>(*this), scene),
         low_{low_beside(scene, Side::lower, rule), low_beside(scene, Side::upper, rule)},
-        chatter_accuracy_(rule.accuracy) {}
+        chatter_accuracy_(rule.accuracy) {
+    if constexpr (E.own_motion)
+      if (move_by_themselves(in_reach)) frames_.emplace(scene, in_reach, rule);
+  }
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section (the stroboscopic section of
   /// `motion::State`), and reports every arc and event with its time since the section `origin`. Each knot of the force
@@ -41,6 +45,8 @@ class EventDriven : public IntegratorBase<N, E> {
   /// by its impacts.
   template <class Observer>
   [[nodiscard]] Outcome advance(State& state, const Number& end, std::int64_t origin, Observer& observer) {
+    if constexpr (E.own_motion && Method::in_closed_form)
+      if (frames_) return advance_in_frames(state, end, origin, observer);
     if constexpr (E.stiffness)
       for (Number knot = this->next_knot(state.phase_turns); knot + knot_rounding<Number>() < end;
            knot = this->next_knot(state.phase_turns)) {
@@ -52,6 +58,8 @@ class EventDriven : public IntegratorBase<N, E> {
 
   /// The state in which a stop releases a mass from rest, in the first forcing period; nothing if it never does.
   [[nodiscard]] std::optional<State> released_from(Side side) const {
+    if constexpr (E.own_motion)
+      if (frames_) return released_from_moving(side);
     const auto stop = motion::stop_at<Number>(this->stops(), side);
     State state;
     state.x = stop.position, state.from_stop = side;
@@ -106,13 +114,19 @@ class EventDriven : public IntegratorBase<N, E> {
 
   /// The time that the rest of a chatter takes, in which the mass has just left a stop; nothing if it isn't summed.
   [[nodiscard]] std::optional<Number> chatter_time(const State& state, const motion::Stop<Number>& stop) const {
-    const auto press = contact_force(this->constants(), stop, this->phase(state));
-    const Number rebound = -stop.into(state.v), &low = low_[index_of(stop.side)];
+    return chatter_time_of(*this, low_[index_of(stop.side)], state, stop);
+  }
+  /// The same of another main mass, rebounds of which aren't higher than `low`.
+  template <class Mass>
+  [[nodiscard]] std::optional<Number> chatter_time_of(const Mass& mass, const Number& low, const State& state,
+                                                      const motion::Stop<Number>& stop) const {
+    const auto press = contact_force(mass.constants(), stop, mass.phase(state));
+    const Number rebound = -stop.into(state.v);
     if constexpr (E.friction)
-      if (this->is_rough())
-        return rubbing_chatter_time(this->constants(), stop, press, this->slips().kinetic, this->slips().static_level,
+      if (mass.is_rough())
+        return rubbing_chatter_time(mass.constants(), stop, press, mass.slips().kinetic, mass.slips().static_level,
                                     rebound, low, chatter_accuracy_);
-    return motion::chatter_time(this->constants(), stop, press, rebound, low, chatter_accuracy_);
+    return motion::chatter_time(mass.constants(), stop, press, rebound, low, chatter_accuracy_);
   }
 
  private:
@@ -134,6 +148,85 @@ class EventDriven : public IntegratorBase<N, E> {
     }
     state.phase_turns = end;
     return this->outcome_of(state);
+  }
+
+  /// The same as `released_from` a stop that moves by itself.
+  [[nodiscard]] std::optional<State> released_from_moving(Side side) const {
+    const auto& frame = frames_->of(side);
+    const auto turns = modes::release_turns(InFrame(*this, frame), frame.stop(), Number(0));
+    if (!turns) return std::nullopt;
+    State state;
+    state.x = frame.stop().position, state.from_stop = side, state.released = true, state.phase_turns = *turns;
+    frames_->leave(state);
+    return state;
+  }
+  /// The same as `advance` between stops that move by themselves.
+  template <class Observer>
+  [[nodiscard]] Outcome advance_in_frames(State& state, const Number& end, std::int64_t origin, Observer& observer) {
+    frames_->enter(state);
+    auto outcome = Outcome::completed;
+    while (outcome == Outcome::completed && end - state.phase_turns > 2 * epsilon<Number>()) {
+      this->report(state);
+      outcome = run_in_frame(state, end, origin, observer);
+    }
+    if (outcome == Outcome::completed) state.phase_turns = end;
+    frames_->leave(state);
+    return outcome == Outcome::completed ? this->outcome_of(state) : outcome;
+  }
+  /// Runs the mode that a state is in, as the stop sees it that it has left last.
+  template <class Observer>
+  [[nodiscard]] Outcome run_in_frame(State& state, const Number& end, std::int64_t origin, Observer& observer) {
+    const auto& frame = frames_->of(state.from_stop);
+    InFrame loop(*this, frame);
+    SeenFromBase seen(frame, observer);
+    Stage<EventDriven, decltype(seen)> stage(*this, state, end, origin, seen);
+    modes::enter(loop, state);
+    const bool flies = state.within == Side::none && !state.chatters && !loop.holding_stop(state);
+    const Outcome outcome = flies ? fly_in_frame(loop, stage, observer) : modes::run_first(loop, stage);
+    modes::keep_before_touch(InFrame(*this, frames_->of(state.from_stop)), state);
+    return outcome;
+  }
+  /// A flight to the first contact, with the stop that it began on or with another one.
+  template <class Loop, class StageOf, class Observer>
+  [[nodiscard]] Outcome fly_in_frame(Loop& loop, StageOf& stage, Observer& observer) {
+    State& state = stage.state;
+    const Between<Loop> mode{loop, state};
+    const auto& constants = loop.constants();
+    const Number horizon = stage.time_left();
+    const motion::Motion<Number> start = loop.motion(constants, state);
+    const auto flight = loop.fly(constants, state, start, loop.anchor(state), horizon);
+    if (!flight.crossing.resolved) return outcome_at(flight.crossing);
+    if (mode.is_none(flight.crossing)) return mode.wait(stage, flight.crossing);
+    const motion::Crossing<Number> other = meet_other(state, flight.crossing.elapsed);
+    if (!other.resolved) return outcome_at(other);
+    stage.show(flight.arc, other.elapsed);
+    if (other.side == Side::none) {
+      const Flown<Number, std::remove_cvref_t<decltype(constants)>> flown{constants, start, flight.crossing, horizon,
+                                                                          0};
+      return end_main(mode, stage, flown);
+    }
+    stage.pass(other.elapsed);
+    state.x = other.motion.x, state.v = other.motion.v, state.released = false;
+    state.from_stop = other.side, state.offset = 0;
+    const auto& frame = frames_->of(other.side);
+    InFrame there(*this, frame);
+    SeenFromBase seen(frame, observer);
+    Stage<EventDriven, decltype(seen)> stage_there(*this, state, stage.end, stage.origin(), seen);
+    return laws::meet(there, stage_there, frame.stop());
+  }
+  /// The first contact of a flight within a time with a stop that it didn't begin on, as that sees it.
+  [[nodiscard]] motion::Crossing<Number> meet_other(const State& state, const Number& horizon) {
+    motion::Crossing<Number> first{0, Side::none, horizon, {}, 0, true};
+    for (const Side side : {Side::lower, Side::upper}) {
+      const auto& mass = frames_->of(side).mass();
+      if (side == state.from_stop || !is_finite(frames_->of(side).stop().position)) continue;
+      const State there = frames_->seen_from(side, state);
+      const auto flight = method().fly_between(mass.stops(), mass.constants(), mass.motion(mass.constants(), there),
+                                               there.x, first.elapsed);
+      if (!flight.crossing.resolved) return flight.crossing;
+      if (flight.crossing.side != Side::none) first = flight.crossing;
+    }
+    return first;
   }
 
   /// Runs the mode that the state is in, up to its event or to the end of the stage.
@@ -180,6 +273,7 @@ class EventDriven : public IntegratorBase<N, E> {
   }
 
   [[no_unique_address]] std::conditional_t<E.loose, Housing<Number, E>, NoHousing> housing_;
+  [[no_unique_address]] std::conditional_t<E.own_motion, std::optional<StopFrames<Number, E>>, NoStopFrames> frames_{};
   std::array<Number, 2> low_;  ///< [stop]: rebounds of chatter that is summed aren't higher
   Number chatter_accuracy_;    ///< of a sum
 };

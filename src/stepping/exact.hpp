@@ -62,6 +62,18 @@ class Exact : public EventDriven<Exact<N, E, Search>, N, E> {
     return flight;
   }
 
+  /// The same between other stops.
+  template <Effects Of>
+  [[nodiscard]] ArcToEvent<motion::Arc<Number, Of>> fly_between(const BasicStops<Number>& stops,
+                                                                const motion::ArcConstants<Number, Of>& constants,
+                                                                const motion::Motion<Number>& start,
+                                                                const Number& anchor, const Number& horizon) {
+    ArcToEvent<motion::Arc<Number, Of>> flight{motion::Arc<Number, Of>(constants, start, anchor)};
+    flight.crossing = next_contact(flight.arc, stops, horizon);
+    this->count_evaluations(flight.crossing.evaluations);
+    return flight;
+  }
+
   /// The same beyond the position of a soft stop, with the first of some margins that falls to 0.
   template <Effects Within, std::size_t count>
   [[nodiscard]] ArcToEvent<motion::Arc<Number, Within>> fly_within(

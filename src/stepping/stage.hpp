@@ -27,6 +27,7 @@ class Stage {
   /// The same up to another phase.
   [[nodiscard]] Stage up_to(const Number& other) const { return {integrator_, state, other, origin_, observer_}; }
 
+  [[nodiscard]] std::int64_t origin() const { return origin_; }
   [[nodiscard]] double time() const { return integrator_.time(state, origin_); }
   [[nodiscard]] Number time_left() const { return (end - state.phase_turns) * integrator_.period(); }
   void pass(const Number& elapsed) const { state.phase_turns += elapsed / integrator_.period(); }

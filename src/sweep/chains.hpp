@@ -84,7 +84,7 @@ inline void start_from(point::Problem& problem, const std::optional<point::End>&
     add_base(problem.start, problem, 1);
     if (problem.shaking.lead != 0) problem.start.phase += problem.shaking.lead;
   }
-  const Stops rigid = rigid_ones(problem.stops);
+  const StopsNow rigid(rigid_ones(problem.stops), problem.oscillator.frequency, problem.start.phase);
   problem.start.displacement = std::clamp(problem.start.displacement, rigid.lower, rigid.upper);
   problem.loose.place = std::clamp(problem.loose.place, problem.loose.lower, problem.loose.upper);
 }

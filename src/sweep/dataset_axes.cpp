@@ -13,7 +13,8 @@ constexpr const char* direction = "direction";  ///< the dimension of two direct
 
 /// Places and starts stay relative to what is shaken.
 observables::FrameOf frame_of(Parameter parameter) {
-  const bool is_place = parameter.row().quantity == Quantity::length && parameter.role() != Role::shaking;
+  const bool is_place = parameter.row().quantity == Quantity::length && parameter.role() != Role::shaking &&
+                        parameter.role() != Role::stop_motion;
   return is_place || parameter.row().quantity == Quantity::velocity ? observables::FrameOf::relative
                                                                     : observables::FrameOf::any;
 }

@@ -71,7 +71,8 @@ bool is_always_symmetric(const Sweep& sweep) {
 /// Whether a dimension varies the force, or what shakes.
 bool drives(const Dimension& dimension) {
   return std::ranges::any_of(dimension, [](const Axis& axis) {
-    return axis.parameter.role() == Role::drive || axis.parameter.role() == Role::shaking;
+    const Role role = axis.parameter.role();
+    return role == Role::drive || role == Role::shaking || role == Role::stop_motion;
   });
 }
 
@@ -86,8 +87,8 @@ bool is_swept(const Sweep& sweep, Parameter parameter) {
 MirrorImages::MirrorImages(const Sweep& sweep) : points_(size_one_way(sweep)) {
   constexpr std::size_t longest = 100'000;  // of a dimension, whose images are looked for one by one
   const GivenProblem& problem = sweep.problem;
-  const bool forced =
-      problem.oscillator.forcing != 0 || is_shaken(sweep) || std::ranges::any_of(sweep.dimensions, drives);
+  const bool forced = is_driven(problem.oscillator) || is_shaken(sweep) || move_by_themselves(sweep) ||
+                      std::ranges::any_of(sweep.dimensions, drives);
   const bool paired = (problem.start.displacement == 0 || is_swept(sweep, x0)) &&
                       (problem.start.velocity == 0 || is_swept(sweep, v0)) && (!forced || is_swept(sweep, phase));
   if (!paired || has_loose_mass(sweep) || problem.time.mode != steady::Mode::steady ||

@@ -6,7 +6,8 @@
 namespace clatter::sweep {
 
 void enter_shaken_frame(point::Problem& problem) {
-  if (is_shaken(problem.shaking)) static_cast<Scene&>(problem) = in_shaken_frame(problem);
+  if (is_shaken(problem.shaking) || move_by_themselves(problem.stops))
+    static_cast<Scene&>(problem) = in_shaken_frame(problem);
   problem.observe.section_phase += problem.shaking.lead;
 }
 
@@ -18,6 +19,16 @@ bool is_shaken(const Sweep& sweep) {
   return is_shaken(sweep.problem.shaking) || std::ranges::any_of(sweep.dimensions, [&](const Dimension& dimension) {
            return std::ranges::any_of(dimension, shakes);
          });
+}
+
+bool move_by_themselves(const Sweep& sweep) {
+  const auto moves = [](const Axis& axis) {
+    return axis.parameter.role() == Role::stop_motion && axis.parameter.row().quantity == Quantity::length &&
+           std::ranges::any_of(axis.values, [](double value) { return value != 0; });
+  };
+  return move_by_themselves(sweep.problem.stops) ||
+         std::ranges::any_of(sweep.dimensions,
+                             [&](const Dimension& dimension) { return std::ranges::any_of(dimension, moves); });
 }
 
 bool has_loose_mass(const Sweep& sweep) {

@@ -69,6 +69,8 @@ void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
 
 /// Whether stops or base are shaken at any point.
 [[nodiscard]] bool is_shaken(const Sweep& sweep);
+/// Whether a stop moves by itself at some point.
+[[nodiscard]] bool move_by_themselves(const Sweep& sweep);
 
 /// Whether there is a loose mass at any point.
 [[nodiscard]] bool has_loose_mass(const Sweep& sweep);

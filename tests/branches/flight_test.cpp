@@ -14,8 +14,9 @@ namespace {
 /// The numbers of a scene that a flight depends on.
 template <class Number>
 std::array<Number*, 16> numbers_in(SceneNumbers<Number>& p) {
-  auto& [h, f, nu, load, k, shape] = p.oscillator;
-  auto& [lower, upper, R_lower, R_upper, kappa_lower, kappa_upper, zeta_lower, zeta_upper] = p.stops;
+  auto& [h, f, nu, load, k, shape, paces] = p.oscillator;
+  auto& [lower, upper, R_lower, R_upper, kappa_lower, kappa_upper, zeta_lower, zeta_upper, motion_lower, motion_upper] =
+      p.stops;
   auto& [stops, base, lead, phase] = p.shaking;
   return {&h,     &f,     &nu,        &load,      &k,           &stops,       &base,       &phase,
           &lower, &upper, &R_lower.R, &R_upper.R, &kappa_lower, &kappa_upper, &zeta_lower, &zeta_upper};

@@ -110,7 +110,7 @@ double least_rate(const BranchPoint& point) {
     least = std::min(least, std::abs(before));
     if (kind != Event::Kind::separation && kind != Event::Kind::renewal) continue;
     const double relaxation = p.soft_stop(side).relaxation(), x = p.position(side) - relaxation * before;
-    const auto& [h, f, nu, load, k, shape] = p.oscillator;
+    const auto& [h, f, nu, load, k, shape, paces] = p.oscillator;
     const double a = f * std::sin(phase) + load - 2 * h * before - k * x;
     least = std::min(least, std::abs(before + relaxation * a));
   }

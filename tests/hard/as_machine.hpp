@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "hard/any_scene.hpp"
 #include "hard/machine.hpp"
@@ -50,6 +51,10 @@ namespace clatter::hard {
           .kappa_upper = stops.stiffness_upper,
           .zeta_lower = stops.damping_lower,
           .zeta_upper = stops.damping_upper,
+          .shake_lower = stops.motion_lower.amplitude,
+          .shake_upper = stops.motion_upper.amplitude,
+          .shake_phase_lower = stops.motion_lower.phase,
+          .shake_phase_upper = stops.motion_upper.phase,
           .loose_mass = loose.ratio,
           .wall_lower = loose.lower,
           .wall_upper = loose.upper,
@@ -70,8 +75,37 @@ namespace clatter::hard {
           .w = loose.velocity};
 }
 
+/// A stop at the start.
+struct StopAtStart {
+  double place, velocity;
+  bool is_met = false, is_followed = false;  ///< the mass is on it, and has its velocity, to the simulator's rounding
+};
+[[nodiscard]] inline StopAtStart stop_at_start(const MachineScene& s, int side) {
+  const double place = side > 0 ? s.upper : s.lower, amplitude = side > 0 ? s.shake_upper : s.shake_lower;
+  if (amplitude == 0) return {place, 0, s.x == place};
+  const double angle = s.phase + (side > 0 ? s.shake_phase_upper : s.shake_phase_lower);
+  StopAtStart stop{place + amplitude * std::sin(angle), s.frequency * amplitude * std::cos(angle)};
+  const double size = std::abs(s.x) + std::abs(place) + std::abs(amplitude);
+  const double fastest = std::abs(s.v) + std::abs(s.frequency * amplitude);
+  stop.is_met = std::abs(s.x - stop.place) <= 16 * epsilon<double>() * size;
+  stop.is_followed = stop.is_met && std::abs(s.v - stop.velocity) <= 16 * epsilon<double>() * fastest;
+  return stop;
+}
+/// Keeps the main mass on a moving stop that it starts on, and between rigid ones if it starts there.
+inline void keep_at_moving_stops(MachineScene& s, const MachineScene& given) {
+  for (const int side : {-1, 1}) {
+    if ((side > 0 ? given.shake_upper : given.shake_lower) == 0) continue;
+    const StopAtStart before = stop_at_start(given, side), stop = stop_at_start(s, side);
+    const bool is_rigid = !std::isfinite(side > 0 ? given.kappa_upper : given.kappa_lower);
+    const bool was_between = side * (before.place - given.x) >= 0, is_beyond = side * (s.x - stop.place) > 0;
+    if (before.is_met || (is_rigid && was_between && is_beyond)) s.x = stop.place;
+    if (before.is_followed) s.v = stop.velocity;
+  }
+}
+
 /// The same with each input moved by some roundings, z by those of y, and a mass with the stop or wall that it starts
-/// on. Signs are drawn, but friction rises against the force or falls.
+/// on, with the velocity of a moving stop if it has that. Signs are drawn, but friction rises against the force or
+/// falls.
 [[nodiscard]] inline MachineScene moved(const AnyScene& any, std::uint64_t way, double roundings,
                                         double roundings_of_phase) {
   support::Random random(20611, 8 * any.index + way);
@@ -122,6 +156,10 @@ namespace clatter::hard {
     nudge(s.duty), nudge(s.rise);
     s.duty = std::min(1.0, s.duty), s.rise = std::min(0.5, s.rise);
   }
+  nudge(s.shake_lower), nudge(s.shake_upper);
+  for (double* phase : {&s.shake_phase_lower, &s.shake_phase_upper})
+    *phase += random.sign() * roundings * epsilon<double>();
+  keep_at_moving_stops(s, given);
   return s;
 }
 

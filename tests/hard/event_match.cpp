@@ -91,7 +91,7 @@ class Matching {
 }  // namespace
 
 Scales scales_of(const Scene& scene, double duration, const MachineRun& run) {
-  const auto& [h, f, nu, load, k, shape] = scene.oscillator;
+  const auto& [h, f, nu, load, k, shape, paces] = scene.oscillator;
   const double response = std::abs(f) / std::max({std::abs(k - nu * nu), 2 * h * nu, nu / duration});
   Real farthest = std::max(-run.of_x.least, run.of_x.greatest);
   if (scene.loose.ratio > 0) farthest = std::max({farthest, -run.of_z.least, run.of_z.greatest});

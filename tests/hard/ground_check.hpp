@@ -48,7 +48,7 @@ class GroundCheck : public Watcher {
     if (!rest.held) return;
     ++rests;
     constexpr int looks = 16;
-    const auto& [h, f, nu, load, k, shape] = oscillator_;
+    const auto& [h, f, nu, load, k, shape, paces] = oscillator_;
     const double size =
         std::abs(f) + std::abs(load) + std::abs(k * rest.place) + std::abs(b_) * (std::abs(k) + 2 * h * nu + nu * nu);
     for (int i = 0; i <= looks; ++i) {
@@ -81,7 +81,7 @@ class GroundCheck : public Watcher {
   /// All forces on the mass: spring and damper are fixed to the ground, or to the base.
   template <class M>
   [[nodiscard]] double force(const M& m, const motion::SoftStop<double>& stop, double time) const {
-    const auto& [h, f, nu, load, k, shape] = oscillator_;
+    const auto& [h, f, nu, load, k, shape, paces] = oscillator_;
     const Ground g = ground(m, time);
     const auto stretch = on_base_ ? m.x : static_cast<double>(g.y), rate = on_base_ ? m.v : static_cast<double>(g.w);
     const double push = stop.side == Side::none ? 0.0 : stop.into(stop.force(stop.into(m.offset), stop.into(m.v)));
@@ -91,7 +91,7 @@ class GroundCheck : public Watcher {
   /// The end of an arc by Taylor steps. What moves pulls at springs and dampers by b sin(theta) and its rate.
   [[nodiscard]] TaylorScan::PhaseState again(const Ground& from, const motion::SoftStop<double>& stop, double begin,
                                              double length) const {
-    const auto& [h, f, nu, load, k, shape] = oscillator_;
+    const auto& [h, f, nu, load, k, shape, paces] = oscillator_;
     const double kappa = stop.side == Side::none ? 0.0 : stop.stiffness,
                  damper = stop.side == Side::none ? 0.0 : stop.damping;
     const Real moved_k = kappa + (on_base_ ? k : 0.0), moved_h = damper + (on_base_ ? h : 0.0);
@@ -109,7 +109,7 @@ class GroundCheck : public Watcher {
   /// The allowed rounding in an arc: of its terms, as many ulps as it has radians more.
   template <class M>
   void allow(const M& first, const M& last, const motion::SoftStop<double>& stop, double length) {
-    const auto& [h, f, nu, load, k, shape] = oscillator_;
+    const auto& [h, f, nu, load, k, shape, paces] = oscillator_;
     const double kappa = stop.side == Side::none ? 0.0 : stop.stiffness,
                  damper = stop.side == Side::none ? 0.0 : stop.damping;
     const double natural = std::sqrt(std::abs(k + kappa)), part = std::min(length, 1 / std::max(natural, 1e-300));

@@ -37,7 +37,7 @@ class Machine {
       idle = m_.time > before ? 0 : idle + 1;
     }
     run_.time = to_long(m_.time), run_.fastest = to_long(fastest_), run_.stored += energy();
-    run_.x = to_long(m_.x()), run_.v = to_long(m_.v), run_.z = to_long(m_.z()), run_.w = to_long(m_.w);
+    run_.x = to_long(m_.x()), run_.v = to_long(m_.speed_of(m_.v)), run_.z = to_long(m_.z()), run_.w = to_long(m_.w);
     return std::move(run_);
   }
 
@@ -46,12 +46,12 @@ class Machine {
 
   [[nodiscard]] static long double to_long(Quad value) { return static_cast<long double>(value); }
   [[nodiscard]] long double energy() const {
-    const Quad mass = m_.scene.loose_mass, y_speed = m_.v + m_.w;
-    return to_long((m_.v * m_.v + m_.scene.stiffness * m_.x() * m_.x() + mass * y_speed * y_speed) / 2);
+    const Quad mass = m_.scene.loose_mass, speed = m_.speed_of(m_.v), y_speed = speed + m_.w;
+    return to_long((speed * speed + m_.scene.stiffness * m_.x() * m_.x() + mass * y_speed * y_speed) / 2);
   }
   void tell(Kind kind, int side, Quad before, Quad after, Quad main_before, Quad pull = 0) {
     run_.events.push_back({kind, side, to_long(m_.time), to_long(before), to_long(after), to_long(m_.x()),
-                           to_long(main_before), to_long(m_.v), to_long(pull)});
+                           to_long(m_.speed_of(main_before)), to_long(m_.speed_of(m_.v)), to_long(pull)});
   }
   void tell(Kind kind, int side, Quad pull = 0) { tell(kind, side, m_.v, m_.v, m_.v, pull); }
   /// Takes a margin in parts of the largest.
@@ -171,7 +171,7 @@ class Machine {
     return 2 * static_cast<std::size_t>(guard.of) + (guard.side > 0);
   }
   void take_speeds() {
-    fastest_ = std::max({fastest_, size_of(m_.v), m_.has_loose ? size_of(m_.w) : Quad(0)});
+    fastest_ = std::max({fastest_, size_of(m_.v), size_of(m_.speed_of(m_.v)), m_.has_loose ? size_of(m_.w) : Quad(0)});
     run_.of_x.take(to_long(m_.x())), run_.of_z.take(to_long(m_.z())), run_.of_y.take(to_long(m_.x() + m_.z()));
   }
   /// Whether nothing can tell a rebound from rest.
@@ -224,15 +224,16 @@ class Machine {
   /// The part of a step by which rounding delays what a guard tells.
   [[nodiscard]] Quad late(const Guard& guard, Quad u) const {
     if (m_.scene.rounding == 0 || guard.of == Guard::Of::still || guard.of == Guard::Of::loose_still) return 0;
-    const Quad own = m_.scene.rounding * (guard.level == 2 ? size_of(m_.x()) : guard.size);
+    const Quad own = m_.scene.rounding * (guard.level == 2 ? m_.place_size() : guard.size);
     const Quad off = std::min(own, Quad(1e-6) * watches_[place_of(guard)].high);
     return off == 0 ? 0 : std::min({off / size_of(jet(guard.p, u).second), Quad(1e-6) * u, 1 - u});
   }
   void pass(const Series& x, const Series& r, Quad step, Quad u) {
     if (u == 0) return;
     const Quad x_before = m_.x(), x_anchor = m_.anchor;
+    const Series in_base = m_.in_base(x, step);
     if (const double h = m_.scene.damping; h != 0)
-      run_.damped += 2 * h * integral_of_square(slope_of(x), u) / to_long(step);
+      run_.damped += 2 * h * integral_of_square(slope_of(in_base), u) / to_long(step);
     const auto [q, slope] = jet(x, u);
     m_.q = q, m_.v = mode_.held ? 0 : slope / step;
     if (!mode_.takes_along() && m_.has_loose) {
@@ -240,8 +241,8 @@ class Machine {
       run_.rubbed_in_housing += m_.scene.loose_friction * to_long(size_of(place - m_.r));
       m_.r = place, m_.w = speed / step;
     }
-    take_turns(run_.of_x, x_anchor, x, u), take_turns(run_.of_z, m_.wall_anchor, r, u);
-    if (m_.has_loose) take_turns(run_.of_y, x_anchor + m_.wall_anchor, sum_of(x, r), u);
+    take_turns(run_.of_x, x_anchor, in_base, u), take_turns(run_.of_z, m_.wall_anchor, r, u);
+    if (m_.has_loose) take_turns(run_.of_y, x_anchor + m_.wall_anchor, sum_of(in_base, r), u);
     run_.rubbed += m_.scene.friction * to_long(size_of(m_.x() - x_before));
     const Quad knot = m_.periodic.knot();
     m_.time = m_.periodic.reached(u == 1 && step == end_ - m_.time ? end_ : m_.time + u * step);
@@ -249,15 +250,7 @@ class Machine {
   }
   /// Takes the values of a quantity at all zeros of its slope before an end.
   static void take_turns(Range& range, Quad anchor, const Series& p, Quad end) {
-    Series slope = slope_of(p);
-    const auto first = std::find_if(slope.begin(), slope.end(), [](Quad term) { return term != 0; });
-    if (first != slope.end() && *first < 0) slope = negative(slope);
-    Quad at = 0;
-    for (auto u = first_fall(slope); u && at + *u < end; u = first_fall(slope)) {
-      at += *u;
-      range.take(to_long(anchor + jet(p, at).first));
-      slope = negative(about(slope, *u)), slope[0] = 0;
-    }
+    for (const Quad u : turns_of(p, end)) range.take(to_long(anchor + jet(p, u).first));
   }
   /// Notes how near a guard comes to 0 without falling to it: at a zero of its slope, or where that jumps.
   void watch(const Guard& guard, Quad u, Quad step) {
@@ -314,7 +307,7 @@ class Machine {
     }
   }
   void meet(int side) {
-    m_.anchor = m_.stop(side).place, m_.q = 0;
+    m_.count_from(side);
     if (!m_.stop(side).is_soft) return;
     m_.around = side, m_.has_force = true;
     tell(Kind::touch, side);

@@ -44,6 +44,9 @@ struct ForceRow {
 /// At z' = 0 friction on the housing holds both together up to a static level.
 /// A soft stop pushes with max(0, kappa depth + 2 zeta sqrt(kappa) depth'), a soft wall both masses apart with max(0,
 /// kappa depth + 2 zeta sqrt(kappa eps/(1 + eps)) depth'); one of infinite kappa is rigid.
+/// Each stop may move by itself, by shake sin(nu tau + phase + shake_phase) about its place, if there is neither
+/// friction nor a loose mass: it throws back, pushes and holds by place and velocity as seen from it. A start within
+/// rounding of one is on it, and at rest on it with a velocity within rounding of its own.
 struct MachineScene {
   double damping = 0, stiffness = 1, forcing = 0, frequency = 1, phase = 0, load = 0;
   ForceShape shape = ForceShape::sine;
@@ -55,7 +58,9 @@ struct MachineScene {
   Law law_lower{}, law_upper{};
   double kappa_lower = no_stop, kappa_upper = no_stop;
   double zeta_lower = 0, zeta_upper = 0;
-  double loose_mass = 0;  ///< eps; 0: none
+  double shake_lower = 0, shake_upper = 0;              ///< amplitudes; 0: it stands
+  double shake_phase_lower = 0, shake_phase_upper = 0;  ///< by which they lead the force
+  double loose_mass = 0;                                ///< eps; 0: none
   double wall_lower = -no_stop, wall_upper = no_stop;
   double wall_R_lower = 1, wall_R_upper = 1;
   Law wall_law_lower{}, wall_law_upper{};
@@ -95,7 +100,7 @@ struct MachineEvent {
   Kind kind;
   int side;                             ///< 1: the upper stop or wall, -1: the lower one, 0: none
   long double time;                     ///< tau
-  long double before, after;            ///< z' of an impact on a wall, x' otherwise
+  long double before, after;            ///< z' of an impact on a wall, x' otherwise, as seen from the event's stop
   long double place;                    ///< x
   long double main_before, main_after;  ///< x'
   long double pull;  ///< x'' at the end of a slip; z'' with which the loose mass is pressed; 0 of others
@@ -115,8 +120,10 @@ struct MachineRun {
   std::vector<MachineEvent> events{};
   long double time = 0, x = 0, v = 0, z = 0, w = 0;  ///< at the end
   Range of_x{}, of_y{}, of_z{};
-  long double fastest = 0;  ///< the largest |x'| or |z'| at the beginning or the end of a Taylor step
-  /// Energy lost to h, in impacts after the start, to friction of the main mass, and to that in the housing.
+  /// The largest |x'|, in frames of moving stops too, or |z'| at the beginning or the end of a Taylor step.
+  long double fastest = 0;
+  /// Energy lost to h, in impacts (as the stop sees them) after the start, to friction of the main mass, and to that in
+  /// the housing.
   long double damped = 0, struck = 0, rubbed = 0, rubbed_in_housing = 0;
   long double stored = 0;  ///< energy of both masses and the spring at the end, less that after an impact at the start
   /// How near the run was to another course: the least of the speed of a contact, the clearance of a near miss, and

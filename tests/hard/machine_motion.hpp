@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,52 +12,9 @@
 #include "hard/machine.hpp"
 #include "hard/machine_force.hpp"
 #include "hard/machine_series.hpp"
+#include "hard/machine_stops.hpp"
 
 namespace clatter::hard::machine {
-
-/// How a stop or a wall throws back.
-struct Rebound {
-  Quad R;
-  Law law;
-
-  /// The share of a speed that an impact leaves.
-  [[nodiscard]] Quad share(Quad speed) const {
-    if (speed < law.below) return 0;
-    if (!law.knots.empty()) return share_by_knots(speed);
-    if (law.exponent == 0) return R;
-    const Quad p = law.exponent;
-    return std::max(1 - (1 - R) * powq(speed / law.reference, p), p / (1 + p));
-  }
-  [[nodiscard]] Quad share_by_knots(Quad speed) const {
-    const Law::Knot* slower = nullptr;
-    for (const Law::Knot& knot : law.knots) {
-      const Quad above = Quad(knot.speed) * Quad(law.unit) - speed;
-      if (above >= 0 && slower == nullptr) return knot.R;
-      if (above >= 0) {
-        const Quad below = speed - Quad(slower->speed) * Quad(law.unit);
-        return (slower->R * above + knot.R * below) / (above + below);
-      }
-      slower = &knot;
-    }
-    return slower->R;
-  }
-};
-/// A stop or a wall.
-struct Contact {
-  bool exists, is_soft;
-  Quad place;
-  Rebound rebound;
-  Quad kappa, damper;
-};
-[[nodiscard]] inline Contact contact(double place, Rebound rebound, double kappa, double zeta, Quad mass = 1) {
-  const bool is_soft = std::isfinite(kappa);
-  return {std::isfinite(place),
-          is_soft,
-          place,
-          std::move(rebound),
-          is_soft ? kappa : 0,
-          is_soft ? 2 * Quad(zeta) * sqrtq(kappa * mass) : 0};
-}
 
 /// A quantity that ends a mode when it falls to 0.
 struct Guard {
@@ -112,8 +70,11 @@ struct Motion {
   explicit Motion(const MachineScene& s) : scene(s), periodic(s), anchor(s.x), v(s.v), wall_anchor(s.z), w(s.w) {
     mus = std::max(scene.static_friction, scene.friction);
     loose_mus = std::max(scene.loose_static, scene.loose_friction);
-    stops = {contact(scene.lower, {scene.restitution_lower, scene.law_lower}, scene.kappa_lower, scene.zeta_lower),
-             contact(scene.upper, {scene.restitution_upper, scene.law_upper}, scene.kappa_upper, scene.zeta_upper)};
+    const Quad nu = scene.frequency, phase = scene.phase;
+    stops = {contact(scene.lower, {scene.restitution_lower, scene.law_lower}, scene.kappa_lower, scene.zeta_lower, 1,
+                     {scene.shake_lower, nu, phase + scene.shake_phase_lower}),
+             contact(scene.upper, {scene.restitution_upper, scene.law_upper}, scene.kappa_upper, scene.zeta_upper, 1,
+                     {scene.shake_upper, nu, phase + scene.shake_phase_upper})};
     const Quad reduced = Quad(scene.loose_mass) / (1 + Quad(scene.loose_mass));
     walls = {contact(scene.wall_lower, {scene.wall_R_lower, scene.wall_law_lower}, scene.wall_kappa_lower,
                      scene.wall_zeta_lower, reduced),
@@ -121,16 +82,24 @@ struct Motion {
                      scene.wall_zeta_upper, reduced)};
     has_loose = scene.loose_mass > 0 && (walls[0].exists || walls[1].exists);
     if (!has_loose) walls[0].exists = walls[1].exists = false;
-    for (const int side : {-1, 1})
-      if (stop(side).exists && stop(side).is_soft && side * (anchor - stop(side).place) > 0)
-        q = anchor - stop(side).place, anchor = stop(side).place, around = side,
-        has_force = side * (stop(side).kappa * q + stop(side).damper * v) > 0;
+    for (Contact& stop : stops)
+      if (!stop.exists) stop.motion = {};
+    for (const Contact& stop : stops) of_stops += stop.motion.push_size(scene.damping, scene.stiffness);
+    assert(of_stops == 0 || (mus == 0 && !has_loose));
+    for (const int side : {-1, 1}) {
+      if (is_close(side)) count_from(side), v = follows(side) ? 0 : v;
+      const Quad depth = x() - place_of(side);
+      if (!stop(side).exists || !stop(side).is_soft || !(side * depth > 0) || is_close(side)) continue;
+      count_from(side), q = depth, around = side;
+      has_force = side * (stop(side).kappa * q + stop(side).damper * v) > 0;
+    }
   }
 
   [[nodiscard]] const Contact& stop(int side) const { return stops[side > 0]; }
   [[nodiscard]] const Contact& wall(int side) const { return walls[side > 0]; }
   [[nodiscard]] bool is_on_rigid(int side) const {
-    return stop(side).exists && !stop(side).is_soft && q == 0 && anchor == stop(side).place;
+    return stop(side).exists && !stop(side).is_soft && q == 0 && anchor == stop(side).place &&
+           carrier == carrier_of(side);
   }
   [[nodiscard]] bool is_on_wall(int side) const {
     return wall(side).exists && !wall(side).is_soft && r == 0 && wall_anchor == wall(side).place;
@@ -144,12 +113,55 @@ struct Motion {
     return n + 1 < terms ? wall_push(way[n], number(n + 1) * way[n + 1] / step) : Quad(0);
   }
   [[nodiscard]] bool is_coupled(const Mode& mode) const { return wall_pushes && !mode.takes_along(); }
-  [[nodiscard]] Quad x() const { return anchor + q; }
+  [[nodiscard]] Quad x() const { return carrier == 0 ? anchor + q : anchor + q + frame().place(time); }
   [[nodiscard]] Quad z() const { return wall_anchor + r; }
   [[nodiscard]] Quad kappa() const { return has_force ? stop(around).kappa : 0; }
   [[nodiscard]] Quad damper() const { return has_force ? stop(around).damper : 0; }
   [[nodiscard]] Quad stiffness() const { return scene.stiffness + kappa(); }
   [[nodiscard]] Quad twice_damping() const { return 2 * Quad(scene.damping) + damper(); }
+
+  // Moving stops.
+
+  [[nodiscard]] int carrier_of(int side) const { return stop(side).motion.moves() ? side : 0; }
+  /// The motion of what the place and the velocity of the main mass count from.
+  [[nodiscard]] const StopMotion& frame() const { return stop(carrier).motion; }
+  /// Where a stop is.
+  [[nodiscard]] Quad place_of(int side) const {
+    return stop(side).motion.moves() ? stop(side).place + stop(side).motion.place(time) : stop(side).place;
+  }
+  /// x' for a velocity that counts as v does.
+  [[nodiscard]] Quad speed_of(Quad own) const { return carrier == 0 ? own : own + frame().speed(time); }
+  /// Puts the main mass on a stop and into the frame of that, with the velocity that it has.
+  void count_from(int side) {
+    const Quad speed = speed_of(v);
+    anchor = stop(side).place, q = 0;
+    if (carrier == carrier_of(side)) return;
+    carrier = carrier_of(side);
+    v = carrier == 0 ? speed : speed - frame().speed(time);
+  }
+  /// Whether a start is within rounding of a moving stop.
+  [[nodiscard]] bool is_close(int side) const {
+    const Quad most = size_of(scene.x) + size_of(stop(side).place) + size_of(stop(side).motion.amplitude);
+    return carrier_of(side) != 0 && size_of(x() - place_of(side)) <= Quad(0x1p-48) * most;
+  }
+  /// Whether it has the velocity of that, too.
+  [[nodiscard]] bool follows(int side) const {
+    const auto& [amplitude, frequency, phase] = stop(side).motion;
+    return size_of(v) <= Quad(0x1p-48) * (size_of(scene.v) + frequency * size_of(amplitude));
+  }
+  /// Over a step, x but for the anchor.
+  [[nodiscard]] Series in_base(const Series& own, Quad step) const {
+    return carrier == 0 ? own : sum_of(own, frame().series(time, step));
+  }
+  /// The same as seen from a stop.
+  [[nodiscard]] Series seen_from(int side, const Series& own, Quad step) const {
+    if (carrier == carrier_of(side)) return own;
+    return sum_of(in_base(own, step), negative(stop(side).motion.series(time, step)));
+  }
+  /// The size of what a gap is the difference of.
+  [[nodiscard]] Quad place_size() const {
+    return size_of(x()) + size_of(stops[0].motion.amplitude) + size_of(stops[1].motion.amplitude);
+  }
 
   // Forces.
 
@@ -157,7 +169,7 @@ struct Motion {
   [[nodiscard]] Series push(const Mode& mode, Quad step) const {
     Series force = periodic.series(time, step);
     force[0] += constant_push(mode);
-    return force;
+    return carrier == 0 ? force : sum_of(force, frame().push(scene.damping, scene.stiffness, time, step));
   }
   [[nodiscard]] Quad constant_push(const Mode& mode) const {
     const Quad loose = mode.takes_along() ? Quad(scene.loose_mass) * scene.loose_load : 0;
@@ -178,12 +190,13 @@ struct Motion {
     const Quad pushed =
         wall_around == 0 ? Quad(0) : wall(wall_around).kappa * size_of(r) + wall(wall_around).damper * size_of(w);
     return size_of(scene.forcing) + size_of(scene.load) + elastic + size_of(twice_damping() * v) + mus + loose +
-           (wall_around == 0 ? Quad(0) : pushed * (1 + 1 / Quad(scene.loose_mass)));
+           (wall_around == 0 ? Quad(0) : pushed * (1 + 1 / Quad(scene.loose_mass))) + of_stops;
   }
-  /// Of the main mass, alone.
+  /// Of the main mass, alone, as v counts.
   [[nodiscard]] Quad acceleration(int slip, int slide) const {
-    return periodic.at(time) + constant_push({false, slip, 0, false, slide}) - stiffness() * q - twice_damping() * v +
-           wall_push(r, w);
+    const Quad own = periodic.at(time) + constant_push({false, slip, 0, false, slide}) - stiffness() * q -
+                     twice_damping() * v + wall_push(r, w);
+    return carrier == 0 ? own : own + frame().push(scene.damping, scene.stiffness, time, 0)[0];
   }
 
   // The motion in a mode.
@@ -194,7 +207,8 @@ struct Motion {
     const Quad reduced = Quad(scene.loose_mass) / (1 + Quad(scene.loose_mass));
     const Quad coupled =
         is_coupled(mode) ? sqrtq(wall(wall_around).kappa / reduced) + wall(wall_around).damper / reduced : Quad(0);
-    return Quad(scene.step) / std::max({periodic.rate(), own + coupled, Quad(1e-3)});
+    const Quad of_motion = of_stops == 0 ? 0 : scene.frequency;
+    return Quad(scene.step) / std::max({periodic.rate(), of_motion, own + coupled, Quad(1e-3)});
   }
   [[nodiscard]] Series main_series(const Mode& mode, Quad step) const {
     Series x{q, v * step}, way{r, w * step};
@@ -252,7 +266,7 @@ struct Motion {
   }
   /// The force of the soft stop around, in its direction or against it.
   [[nodiscard]] Guard force(Guard::Of of, int sign, const Series& x, Quad step) const {
-    const auto& [exists, is_soft, place, rebound, kappa, damper] = stop(around);
+    const Quad kappa = stop(around).kappa, damper = stop(around).damper;
     Guard guard{of, around, {}, kappa * size_of(q) + damper * size_of(v), 0};
     for (std::size_t n = 0; n + 1 < terms; ++n)
       guard.p[n] = sign * around * (kappa * x[n] + damper * number(n + 1) * x[n + 1] / step);
@@ -260,7 +274,7 @@ struct Motion {
   }
   /// The same of the soft wall.
   [[nodiscard]] Guard wall_force(Guard::Of of, int sign, const Series& way, Quad step) const {
-    const auto& [exists, is_soft, place, rebound, kappa, damper] = wall(wall_around);
+    const Quad kappa = wall(wall_around).kappa, damper = wall(wall_around).damper;
     Guard guard{of, wall_around, {}, kappa * size_of(r) + damper * size_of(w), 0};
     for (std::size_t n = 0; n + 1 < terms; ++n)
       guard.p[n] = sign * wall_around * (kappa * way[n] + damper * number(n + 1) * way[n + 1] / step);
@@ -286,7 +300,7 @@ struct Motion {
     for (const int side : {-1, 1}) {
       if (mode.held && !is_on_rigid(side)) rows.push_back(hold(side, mode, step));
       if (!mode.held && around == 0 && stop(side).exists)
-        rows.push_back(gap(Of::stop, side, x, stop(side).place - anchor, step));
+        rows.push_back(gap(Of::stop, side, seen_from(side, x, step), stop(side).place - anchor, step));
       if (!mode.takes_along() && wall(side).exists && wall_around == 0) rows.push_back(wall_gap(side, way, step));
       if (!mode.held && is_taken_along(mode, side)) rows.push_back(press(side, x, step));
     }
@@ -312,9 +326,11 @@ struct Motion {
   MachineScene scene;
   PeriodicForce periodic;
   Quad mus = 0, loose_mus = 0, time = 0;
+  Quad of_stops = 0;  ///< the size of the forces that their motions are in frames that move with them
   std::array<Contact, 2> stops{}, walls{};
   bool has_loose = false;
   Quad anchor, q = 0, v;       ///< of the main mass: its place counts from a stop, for the digits of short flights
+  int carrier = 0;             ///< the moving stop from which, and from whose velocity, they count; 0: the base
   Quad wall_anchor, r = 0, w;  ///< of the loose mass, as seen from the main one, likewise
   int around = 0;              ///< the soft stop beyond whose place the main mass is; then it is the anchor
   bool has_force = false;      ///< and that stop pushes

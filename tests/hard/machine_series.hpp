@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace clatter::hard::machine {
 
@@ -155,6 +156,20 @@ template <class Real>
   if (is_sure && changes_of(b) == 0) return std::nullopt;
   if (is_sure && changes_of(b) == 1) return refined(p, 0, 1);
   return fall_within(p, bernstein(p), 0, 1);
+}
+
+/// The zeros of the slope of p before an end.
+[[nodiscard]] inline std::vector<Quad> turns_of(const Series& p, Quad end) {
+  Series slope = slope_of(p);
+  const auto first = std::find_if(slope.begin(), slope.end(), [](Quad term) { return term != 0; });
+  if (first != slope.end() && *first < 0) slope = negative(slope);
+  std::vector<Quad> turns;
+  Quad at = 0;
+  for (auto u = first_fall(slope); u && at + *u < end; u = first_fall(slope)) {
+    turns.push_back(at += *u);
+    slope = negative(about(slope, *u)), slope[0] = 0;
+  }
+  return turns;
 }
 
 }  // namespace clatter::hard::machine

@@ -15,6 +15,7 @@
 #include "hard/any_force_in_pieces.hpp"
 #include "hard/any_law_of_speed.hpp"
 #include "hard/any_machine.hpp"
+#include "hard/any_moving_stops.hpp"
 #include "hard/any_rubbing_machine.hpp"
 #include "hard/as_machine.hpp"
 #include "hard/machine.hpp"
@@ -304,6 +305,10 @@ TEST(Machines, under_a_force_in_pieces_are_told_as_taylor_series_tell_them) {
   expect_told_as_by_taylor_series({"combined, in pieces", in_pieces<any_machine>, 10});
   expect_told_as_by_taylor_series({"rubbing, in pieces", in_pieces<any_rubbing_machine>, 5});
   expect_told_as_by_taylor_series({"soft walls, in pieces", in_pieces<any_soft_walled_machine>, 5});
+}
+
+TEST(Machines, of_which_stops_move_by_themselves_are_told_as_taylor_series_tell_them) {
+  expect_told_as_by_taylor_series({"moving stops", any_moving_stops, 60});
 }
 
 TEST(Machines, under_a_force_in_pieces_keep_their_energy_but_for_work_and_losses) {

@@ -69,7 +69,7 @@ struct Shares {
 };
 
 Shares shares_of(const point::Problem& scene, const Period& period, std::size_t k) {
-  const auto& [h, f, nu, load, stiffness, shape] = scene.oscillator;
+  const auto& [h, f, nu, load, stiffness, shape, paces] = scene.oscillator;
   Shares shares{k == 0 ? Complex(load) : k == 1 ? f * std::polar(0.5, scene.start.phase - std::numbers::pi / 2) : 0, 0};
   shares.size = std::abs(shares.sum);
   for (const motion::Event& impact : period.impacts) {

@@ -77,7 +77,7 @@ class Rescan : public Watcher {
   /// longer one is a sum of forced response and free motion, which near resonance are larger than their sum.
   template <class M>
   void allow(const M& m, double length, double rate) {
-    const auto& [h, f, nu, load, k, shape] = oscillator_;
+    const auto& [h, f, nu, load, k, shape, paces] = oscillator_;
     const double natural = std::sqrt(std::abs(k)), near = k > 0 ? 16 / k : 16.0;
     const double response = f == 0 ? 0
                                    : std::abs(f) * std::min(1 / std::hypot(k - nu * nu, 2 * h * nu),

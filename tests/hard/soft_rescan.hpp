@@ -115,7 +115,7 @@ class SoftRescan : public Rescan {
   /// The allowed rounding beyond a stop's position, where displacements are offsets from it.
   template <class M>
   void allow_within(const M& m, double length) {
-    const auto& [h, f, nu, load, k, shape] = oscillator_;
+    const auto& [h, f, nu, load, k, shape, paces] = oscillator_;
     const bool pushed = pushing_ != Side::none;
     const double stiffness = pushed ? k + stop_.stiffness : k, damping = pushed ? h + stop_.damping : h;
     const double natural = std::sqrt(std::abs(stiffness)), pull = std::abs(load) + std::abs(k * anchor_);

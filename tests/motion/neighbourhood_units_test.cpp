@@ -39,7 +39,7 @@ Case any_case(std::uint64_t i) {
 /// The same in units of time that are shorter by so much.
 Case in_time(Case any, double faster) {
   const double square = faster * faster;
-  auto& [h, f, nu, load, k, shape] = any.scene.oscillator;
+  auto& [h, f, nu, load, k, shape, paces] = any.scene.oscillator;
   h /= faster, nu /= faster, f /= square, load /= square, k /= square;
   any.scene.friction.kinetic /= square, any.scene.friction.static_level /= square;
   any.scene.stops.stiffness_lower /= square, any.scene.stops.stiffness_upper /= square;

@@ -33,7 +33,7 @@ struct SymmetricMotion {
 /// The motion of the faster impacts: x and v after the impact are linear in w, and the response has the amplitude of
 /// (6).
 SymmetricMotion symmetric_motion(const point::Problem& scene) {
-  const auto& [h, f, nu, load, k, shape] = scene.oscillator;
+  const auto& [h, f, nu, load, k, shape, paces] = scene.oscillator;
   const double eps = scene.loose.ratio, s = scene.loose.upper, R = scene.loose.restitution_lower.R, half = pi_ / nu;
   const double c = eps * (1 + R) / (1 + eps), lambda = std::sqrt(1 - h * h), decay = std::exp(-h * half);
   const double B = decay * std::sin(lambda * half) / lambda, C = decay * std::cos(lambda * half) - h * B,

@@ -104,7 +104,7 @@ GivenScene any_machine(support::Random& random) {
 /// The numbers of a computed scene.
 template <class Number>
 std::vector<Number> numbers_in(const BasicScene<Number>& scene) {
-  const auto& [h, f, nu, load, k, shape] = scene.oscillator;
+  const auto& [h, f, nu, load, k, shape, paces] = scene.oscillator;
   const auto& s = scene.stops;
   return {h,
           f,

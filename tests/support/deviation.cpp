@@ -157,6 +157,11 @@ std::string configuration_of(const point::Problem& s, double duration) {
     }
   };
   tell(s.stops, "stop", "R");
+  for (const Side side : {Side::lower, Side::upper})
+    if (const auto& [amplitude, phase] = motion_of(s.stops, side); amplitude != 0) {
+      const char* const which = side == Side::upper ? "upper" : "lower";
+      out << "\nstop_amplitude_" << which << " = " << amplitude << "\nstop_phase_" << which << " = " << phase;
+    }
   if (has_friction(s.friction))
     out << "\nfriction = " << s.friction.kinetic << "\nfriction_static = " << s.friction.static_level;
   if (const LooseMass& loose = s.loose; has_loose_mass(loose)) {

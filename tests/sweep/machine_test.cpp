@@ -28,7 +28,7 @@ Drawn drawn(std::uint64_t i) {
   Drawn it{.length = random.logarithmic(1e-3, 1e3), .time = random.logarithmic(1e-3, 1e3)};
   GivenProblem& machine = it.problem;
   machine.is_si = true, machine.mass = mass;
-  auto& [h, force, frequency, load, stiffness, shape] = machine.oscillator;
+  auto& [h, force, frequency, load, stiffness, shape, paces] = machine.oscillator;
   stiffness = random.happens(0.7) ? mass * rate * rate : random.happens(0.5) ? 0 : -mass * rate * rate;
   machine.damper = 2 * random.uniform(0, 0.3) * mass * rate;
   if (stiffness != 0 && random.happens(0.3))

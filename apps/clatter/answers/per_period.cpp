@@ -86,7 +86,7 @@ std::vector<double> observed_periods(const results::FileSummary& summary, const 
   bool is_driven = false;
   for (std::size_t point = 0; point < told.status.size(); ++point) {
     const point::Problem problem = problem_at(sweep, point);
-    is_driven = is_driven || problem.oscillator.forcing != 0 || is_shaken(problem.shaking);
+    is_driven = is_driven || clatter::is_driven(problem.oscillator) || is_shaken(problem.shaking);
     periods.push_back(periods_at(told, problem, point));
     if (std::isnan(periods.back())) return {};
   }

@@ -18,7 +18,12 @@
 namespace clatter::app {
 namespace {
 
-void check_starts(const config::Config& config, const std::string& file) {
+void check_scenes(const config::Config& config, const std::string& file) {
+  if (move_by_themselves(config.sweep))
+    throw UsageError(
+        storage::printable(file) +
+        ": stops that move by themselves are computed by the exact method alone, so there is none to compare "
+        "it with; let both move alike by stop_amplitude");
   if (!config.sweep.follow) return;
   throw UsageError(storage::printable(file) +
                    ": [sweep] follow: an accuracy run starts every point from [scene]; add --set sweep.follow=''");
@@ -76,7 +81,7 @@ int run_accuracy(const Arguments& arguments) {
   const ProgressKind shown = progress_kind(arguments);
   const std::string output = output_of(arguments, ".accuracy.h5");
   const config::Config config = config_of(arguments);
-  check_starts(config, arguments.operands[0]);
+  check_scenes(config, arguments.operands[0]);
   const results::OutputPlace place(output, {.command = "accuracy", .title = config.title}, arguments.has("force"));
   storage::require_idle(output);
   if (!arguments.has("quiet")) warn(config, not_read);

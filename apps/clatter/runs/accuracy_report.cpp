@@ -89,7 +89,7 @@ std::string steady_text(const accuracy::PointAccuracy& of_point) {
 /// "forcing period", or without a force the time that counts as one, in the user's units: "turn of 2 pi".
 std::string period_text(const point::Problem& problem, bool many) {
   const std::string plural = many ? "s" : "";
-  if (problem.oscillator.forcing != 0) return " forcing period" + plural;
+  if (is_driven(problem.oscillator)) return " forcing period" + plural;
   const double frequency = counting_frequency(problem.oscillator) / problem.units.time;
   const std::string length = frequency == 1 ? "2 pi" : formatted("%.6g", 2 * pi<double>() / frequency);
   return " turn" + plural + " of " + length + (problem.units.is_si ? " s" : "");

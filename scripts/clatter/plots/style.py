@@ -194,6 +194,9 @@ def gathered(notes):
     return [*others, white + ", or ".join(reasons)] if reasons else others
 
 
+OWN_AMPLITUDES = ("stop_amplitude_lower", "stop_amplitude_upper")  # of stops that move by themselves
+
+
 def constants(output, title, others=()):
     """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
     starts = ("x0", "v0", "loose_x0", "loose_v0", "phase")
@@ -207,6 +210,9 @@ def constants(output, title, others=()):
         "stop_amplitude",
         "base_amplitude",
         "stop_phase",
+        *OWN_AMPLITUDES,
+        "stop_phase_lower",
+        "stop_phase_upper",
     )
     stiffnesses = ("stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
     hidden = {
@@ -217,7 +223,7 @@ def constants(output, title, others=()):
     keys = [key for key in output.constants if key in output.scene and key not in named and not output.swept(key)]
     keys = [key for key in keys if matters(output, key)]
     keys = [key for key in keys if len({condition(other, key) for other in (output, *others)}) == 1]
-    forces = ("force" if output.is_si else "f", "stop_amplitude", "base_amplitude")
+    forces = ("force" if output.is_si else "f", "stop_amplitude", "base_amplitude", *OWN_AMPLITUDES)
     if not any(float(output.scene.get(key, 0.0)) or output.swept(key) for key in forces):
         keys = [key for key in keys if key not in ("nu", "frequency", "phase")]  # no force, no frequency
     if not any(output.swept(key) or np.isfinite(float(output.scene.get(key, np.inf))) for key in stiffnesses):

@@ -18,9 +18,9 @@ class ImpactLog::Observer {
   Observer(const Settings& settings, const ObservedSpan& span)
       : full_(settings.full_log),
         tells_walls_(settings.wall_log),
-        drive_(span.scene.oscillator.forcing != 0 ? Drive::force
-               : is_shaken(span.scene.shaking)    ? Drive::shaking
-                                                  : Drive::none),
+        drive_(is_driven(span.scene.oscillator) ? Drive::force
+               : is_shaken(span.scene.shaking)  ? Drive::shaking
+                                                : Drive::none),
         shaking_(span.scene.shaking),
         frequency_(span.scene.oscillator.frequency),
         begin_(turns_of(span.theta)) {}
@@ -64,7 +64,7 @@ class ImpactLog::Observer {
     LoggedImpact logged{.time = contact.time,
                         .before = contact.before,
                         .after = after,
-                        .absolute = contact.before,
+                        .absolute = contact.before + contact.stop.velocity,
                         .stop = stop_of(contact)};
     if (drive_ != Drive::none) {
       const double since = drive_ == Drive::force ? contact.turns : frequency_ * contact.time / (2 * pi<double>());

@@ -121,7 +121,7 @@ std::string ImpactWord::regime_of(const std::vector<Contact>& contacts, double p
 /// of its own.
 bool ImpactWord::Observer::is_mirrored(const ObservedSpan& span, double x, double v) const {
   if (is_response_) return true;
-  if (span.scene.oscillator.forcing != 0 && std::llround(span.turns) % 2 == 0) return false;
+  if (is_driven(span.scene.oscillator) && std::llround(span.turns) % 2 == 0) return false;
   const auto slower = [](const Contact& a, const Contact& b) { return std::abs(a.before) < std::abs(b.before); };
   const auto fastest = std::ranges::max_element(contacts_, slower);
   if (fastest == contacts_.end() || fastest->before == 0) {
@@ -153,9 +153,10 @@ std::vector<Contact> ImpactWord::Observer::whole_contacts(double total) const {
 ImpactWord::Values ImpactWord::Observer::finish(const ObservedSpan& span, double x, double v) const {
   Values values;
   if (!span.periodic) return values;
+  const StopsNow stops(span.scene.stops, span.scene.oscillator.frequency, span.scene.start.phase);
   values.impact_word =
-      is_stuck() ? std::string(stuck) : word_of(whole_contacts(span.total), soft_stop_beyond(span.scene.stops, x));
-  if (span.scene.oscillator.forcing != 0) values.regime = regime_of(contacts_, span.turns);
+      is_stuck() ? std::string(stuck) : word_of(whole_contacts(span.total), soft_stop_beyond(stops, x));
+  if (is_driven(span.scene.oscillator)) values.regime = regime_of(contacts_, span.turns);
   if (is_symmetric(span.scene)) values.symmetric = is_mirrored(span, x, v) ? 1.0 : 0.0;
   return values;
 }

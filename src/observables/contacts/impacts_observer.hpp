@@ -98,8 +98,15 @@ class Impacts::Observer {
     stops_[index_of(side)].contact_time += stick.length;
     stops_[index_of(side)].force.include(stop.force(stop.into(stick.place - stop.position), 0.0));
   }
+  template <class A>
+  void contact(const A& arc, double length) {
+    if constexpr (requires { arc.as_stop_sees(); })
+      contact_by(*arc.as_stop_sees(), length);
+    else
+      contact_by(arc, length);
+  }
   template <Effects E>
-  void contact(const motion::Arc<double, E>& arc, double length) {
+  void contact_by(const motion::Arc<double, E>& arc, double length) {
     const motion::SoftStop<double>& of_arc = arc.constants().stop;
     OfStop& stop = stops_[index_of(of_arc.side)];
     stop.contact_time += length;
@@ -109,7 +116,7 @@ class Impacts::Observer {
     RangeSearch(arc, length, see).exceed(StopForceOnArc{}, stop.force);
   }
   template <motion::Polynomial A>
-  void contact(const A& arc, double length) {
+  void contact_by(const A& arc, double length) {
     const motion::SoftStop<double>& of_arc = arc.constants().stop;
     OfStop& stop = stops_[index_of(of_arc.side)];
     stop.contact_time += length;

@@ -13,6 +13,7 @@
 #include "motion/state.hpp"
 #include "observables/energy/energy.hpp"
 #include "observables/energy/loose_energy.hpp"
+#include "observables/energy/moving_stops_energy.hpp"
 #include "observables/energy/quadrature.hpp"
 
 namespace clatter::observables {
@@ -24,6 +25,7 @@ class Energy::Observer {
         stops_(span.scene.stops),
         friction_(span.scene.friction.kinetic),
         phase_(span.scene.start.phase) {
+    if (move_by_themselves(stops_)) moving_.emplace(span);
     if (!has_loose_mass(span.scene.loose)) return;
     loose_load_ = span.scene.loose.load;
     settings.wall_energy ? void(share_.emplace(span.scene.loose)) : void(loose_.emplace(span));
@@ -31,6 +33,7 @@ class Energy::Observer {
 
   template <class A>
   void arc(const A& arc, double begins, double length) {
+    if (moving_) return moving_->arc(motion::main_of(arc), begins, length);
     if (loose_) return loose_->arc(arc, begins, length);
     if (share_) share_->arc(arc, length);
     if (!(length > 0)) return;
@@ -39,6 +42,7 @@ class Energy::Observer {
     integrate(arc, length);
   }
   void event(const motion::Event& event) {
+    if (moving_) return moving_->event(event);
     if (loose_) return loose_->event(event);
     if (share_ && share_->event(event)) return;
     if (!event.lasts() && event.kind != motion::Event::Kind::impact) return;
@@ -53,6 +57,7 @@ class Energy::Observer {
   }
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
+    if (moving_) return moving_->finish(span, x, v);
     if (loose_) return with_loose_mass(span, x, v);
     const Place end = end_at(x);
     see(end, v);
@@ -72,7 +77,7 @@ class Energy::Observer {
     return values;
   }
   [[nodiscard]] double evaluations() const {  ///< of arcs
-    return loose_ ? loose_->evaluations() : evaluations_;
+    return moving_ ? moving_->evaluations() : loose_ ? loose_->evaluations() : evaluations_;
   }
 
  private:
@@ -285,6 +290,7 @@ class Energy::Observer {
   double force_work_ = 0, loss_damping_ = 0, loss_friction_ = 0;
   std::array<double, 2> loss_impact_{}, impulse_{};  ///< [stop]
   double evaluations_ = 0;
+  std::optional<MovingStopsEnergy> moving_{};  ///< beside stops that move by themselves, in place of all others
   std::optional<LooseEnergy> loose_{};  ///< with a loose mass on a main one without events, in place of all others
   std::optional<LooseShare> share_{};   ///< with another loose mass, beside all others
   double loose_load_ = 0.0;

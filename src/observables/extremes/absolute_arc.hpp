@@ -20,7 +20,7 @@ class AbsoluteArc {
   AbsoluteArc(const A& arc, const FrameMotion& frame, const Stops& stops, double begin)
       : arc_(arc),
         frame_(frame),
-        stops_(rigid_ones(stops)),
+        stops_(outermost(rigid_ones(stops))),
         begin_(begin),
         rate(std::max(arc.constants().rate, frame.frequency())) {}
 

@@ -51,7 +51,8 @@ class Extrema::Observer {
     } else if (event.kind == Kind::strike) {
       v_.include(event.main.before), v_.include(event.main.after);
     } else if (event.kind == Kind::impact) {
-      x_.include(event.place), v_.include(event.before), v_.include(event.after);
+      x_.include(event.place);
+      v_.include(event.before + event.stop.velocity), v_.include(event.after + event.stop.velocity);
     } else if (event.lasts() && !event.has_arc) {
       x_.include(event.place), v_.include(0.0);
     }
@@ -65,7 +66,7 @@ class Extrema::Observer {
   [[nodiscard]] const Range& velocity() const { return v_; }
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
     if (absolute_ != nullptr) include_end(x, v);
-    const Range range = displacement(rigid_ones(span.scene.stops));
+    const Range range = displacement(outermost(rigid_ones(span.scene.stops)));
     if (!has_loose_mass(span.scene.loose)) return {range.low, range.high, v_.low, v_.high};
     const LooseMass& loose = span.scene.loose;
     return {range.low,

@@ -61,7 +61,7 @@ class Sampler {
         first_(first),
         rounding_(32 * epsilon<double>() * spacing * static_cast<double>(x.size())),
         at_impact_(at_impact),
-        stops_(rigid_ones(stops)) {}
+        stops_(outermost(rigid_ones(stops))) {}
   Sampler(Sampler&&) = default;  // a copy would write to the same rows
   Sampler& operator=(Sampler&&) = default;
   ~Sampler() = default;
@@ -90,7 +90,7 @@ class Sampler {
  private:
   [[nodiscard]] double due() const { return instant(taken_); }
   [[nodiscard]] double at(const motion::Event& impact) const {
-    return at_impact_ == AtImpact::after ? impact.after : (impact.before + impact.after) / 2;
+    return impact.stop.velocity + (at_impact_ == AtImpact::after ? impact.after : (impact.before + impact.after) / 2);
   }
   [[nodiscard]] bool is_due_before(double end) const { return due_before(end, 1) == 1; }
   /// The number of the next samples, up to `most`, that lie before an instant.

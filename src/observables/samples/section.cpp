@@ -10,7 +10,7 @@ namespace clatter::observables {
 
 bool Section::in_lanes(const Settings& settings, const ObservedSpan& span) {
   const bool reaches = span.periodic || span.transient || static_cast<double>(settings.section) <= span.turns;
-  return span.scene.oscillator.forcing != 0 && span.has_whole_turns() && reaches &&
+  return is_driven(span.scene.oscillator) && span.has_whole_turns() && reaches &&
          turns_to(settings.section_phase, span.scene) == 0;
 }
 

@@ -24,7 +24,7 @@ class Section::Observer {
         is_absolute_(span.frame.has_value()),
         total_(span.total),
         most_(static_cast<std::size_t>(settings.section)) {
-    if (span.scene.oscillator.forcing == 0) return;
+    if (!is_driven(span.scene.oscillator)) return;
     const double turns = turns_to(settings.section_phase, span.scene);
     if (span.periodic || span.transient)
       most_ = std::min(most_, static_cast<std::size_t>(std::max(0.0, std::ceil(span.turns - turns))));
@@ -84,7 +84,7 @@ class Section::Observer {
   void add(const FrameMotion& frame) {
     const SineCosine<double> at_phase = frame.by_force(std::sin(phase_), std::cos(phase_));
     for (std::size_t i = 0; i < values_.section_x.size(); ++i) {
-      const SineCosine<double> theta = frame.is_forced() ? at_phase : frame.at(times_[i]);
+      const SineCosine<double> theta = times_.empty() ? at_phase : frame.at(times_[i]);
       values_.section_x[i] += frame.displacement(theta), values_.section_v[i] += frame.velocity(theta);
     }
   }

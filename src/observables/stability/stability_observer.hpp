@@ -34,7 +34,7 @@ class Stability::Observer {
   Observer(const Stops& stops, double rounding, double pace = 1)
       : tangent_(stops),
         nearby_(stops, motion::Ellipse::disc(rounding), rounding, true, pace),
-        graze_matters_(!has_soft_stop(stops)) {}
+        graze_matters_(!has_soft_stop(stops) && !move_by_themselves(stops)) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -63,8 +63,8 @@ class Stability::Observer {
 
   /// True if motions that differ from this one by rounding meet other stops. After a rest no difference is left; and
   /// motion by general methods isn't known to rounding. A graze of a soft stop changes little, and beside one those of
-  /// a rigid stop aren't told. Under dry friction the least speeds and distances tell them, with rests, too: a mass
-  /// that friction halts just at a stop may rest there or not.
+  /// a rigid stop aren't told; nor are those of stops that move by themselves. Under dry friction the least speeds and
+  /// distances tell them, with rests, too: a mass that friction halts just at a stop may rest there or not.
   [[nodiscard]] bool grazes() const {
     return (graze_matters_ && !rests_ && !nearby_.holds_before(first_stop_)) || (rough_ && rough_->found()) ||
            (walls_ && walls_->found());
@@ -96,7 +96,7 @@ class Stability::Observer {
   [[nodiscard]] Values finish(const ObservedSpan& span, double, double) {
     if (loose_) return of_loose_mass(span);
     if (span.periodic) {
-      finish_period(span.total, span.scene.oscillator.forcing == 0 && !span.stands_still);
+      finish_period(span.total, !is_driven(span.scene.oscillator) && !span.stands_still);
     } else {
       finish_window(span.total);
     }
