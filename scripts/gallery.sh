@@ -49,6 +49,7 @@ draw bouncing_ball --only section_v --size 5x3.5
   --set observe.section=0 --set observe.stability=false --set observe.impact_log=true -o "$work/bouncing_ball_phases.h5" -q
 "$source_dir/scripts/plot.py" "$work/bouncing_ball_phases.h5" --only impact_phase --size 5x3.5 \
   --title 'Impacts of a ball on a shaken table' --format svg -o "$out"
+draw ceiling --only impact_power --size 5x3.5
 draw gear_rattle --only x_min,x_max,impact_power --size 7x3.5
 draw harvester --only impact_power --size 5x3.8
 for shape in square sine; do
