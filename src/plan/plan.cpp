@@ -93,7 +93,7 @@ std::string effect_set_name(const Effects& effects) {
   if (set.forcing != Forcing::none) name += set.forcing == Forcing::regular ? ", forcing" : ", resonant forcing";
   if (set.loose) return name + (set.stops() ? ", loose mass beside stops and friction" : ", loose mass");
   name += set.stops() ? ", impacts" : ", no stops";
-  if (set.friction) name += ", friction";
+  if (set.friction) name += effects.own_motion ? ", stops that move" : ", friction";
   return name;
 }
 

@@ -167,6 +167,12 @@ class Refused(CommandLine):
         told = self.clatter("certify", "a.h5", "-o", "a.jsonl")
         self.assertIn("between stops that move by themselves", told.stdout + told.stderr)
 
+    def test_a_plan_tells_how_stops_move(self):
+        self.write("a.toml", BASE + "stiffness = 4.0\nR = 0.5\nstop_amplitude_lower = 0.1\nstop_phase = 0.5\n")
+        told = " ".join(self.clatter("plan", "a.toml").stdout.split())
+        for words in ("impacts, stops that move", "stop_amplitude_lower = 0.1, stop_phase_lower = 0.5"):
+            self.assertIn(words, told)
+
     def test_the_command_line_lets_stops_move_alike_or_by_themselves(self):
         self.write("a.toml", BASE + "stop_amplitude = 0.1\n[observe]\nextrema = true\n")
         told = self.clatter("run", "a.toml", "-o", "a.h5", "--set", "scene.stop_amplitude_lower=0.2")

@@ -143,6 +143,10 @@ std::vector<KeyAndNumber> computed_scene(const point::Problem& problem) {
     scene.push_back({keys.damping, lower ? of.damping_lower : of.damping_upper});
   };
   for (const Side side : {Side::lower, Side::upper}) add_stop(of_stops[index_of(side)], stops, side);
+  for (const Side side : {Side::lower, Side::upper})
+    if (const auto& [amplitude, phase] = motion_of(stops, side); amplitude != 0)
+      scene.insert(scene.end(), {{side == Side::lower ? "stop_amplitude_lower" : "stop_amplitude_upper", amplitude},
+                                 {side == Side::lower ? "stop_phase_lower" : "stop_phase_upper", phase}});
   if (has_friction(problem.friction))
     scene.insert(scene.end(),
                  {{"friction", problem.friction.kinetic}, {"friction_static", problem.friction.static_level}});
