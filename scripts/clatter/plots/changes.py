@@ -10,7 +10,14 @@ DERIVED = ("d_", "multiplier_", "lyapunov")  # how results of the derivative of 
 PAIRS = (("v_min", "v_max"), ("z_min", "z_max"))  # the mirror image changes each for minus the other
 SAME = 1e-6  # of the scale: what differs by less is noise
 NEARER = 0.5  # how much nearer than its neighbour the mirror image must be
-SIDED = ("R", "stop_stiffness", "stop_damping", "stop_R")  # keys that a stop may have for itself
+SIDED = (
+    "R",
+    "stop_stiffness",
+    "stop_damping",
+    "stop_R",
+    "stop_amplitude",
+    "stop_phase",
+)  # keys that a stop may have for itself
 ROUNDING = 1e-12
 
 

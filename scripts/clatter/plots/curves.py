@@ -120,7 +120,7 @@ def mark_foot(axes, along, title, **style):
 def draw_stops_along(axes, output, name):
     """The stops in a panel of displacements over a swept axis."""
     along, (lower, upper) = output.values(name), output.reach()
-    words = "reach of the stops" if output.is_absolute else "stops"
+    words = "reach of the stops" if output.is_absolute or output.stops_move else "stops"
     if np.ptp(lower) == 0.0 and np.ptp(upper) == 0.0 or not np.isfinite([lower, upper]).all():
         return draw_walls(axes, lower.flat[0], upper.flat[0], named=words)
     if output.is_cloud:  # no line runs along its points

@@ -20,6 +20,7 @@ ESCAPED = 19  # of them, the one that is no failure: nothing brings the mass bac
 SOFT_STOPS = ("stop_stiffness_lower", "stop_stiffness_upper")
 SI_WORDS = {"tau": "t", "xs": "gap"}  # of long names, in [machine]
 SHAKEN = ("stop_amplitude", "base_amplitude")
+OWN_AMPLITUDES = ("stop_amplitude_lower", "stop_amplitude_upper")  # of stops that move by themselves
 LOGGED = ("impact",)  # dimensions of the log
 WALL = 2  # |impact_stop| of a wall of a loose mass whose main mass has stops or friction of its own
 STARTS = ("x0", "v0", "phase", "start_period", "loose_x0", "loose_v0")  # keys that say where motion begins
@@ -225,11 +226,17 @@ class Output:
 
     def reach(self):
         """The farthest places of the lower and the upper stop at every point, in the frame of the displacements."""
-        lower, upper = self.stops()
+        own = (np.abs(self.parameter(key, 0.0)) for key in OWN_AMPLITUDES)
+        lower, upper = (stop + sign * moved for stop, sign, moved in zip(self.stops(), (-1, 1), own))
         if not self.is_absolute:
             return lower, upper
         moved = sum(np.abs(self.parameter(key, 0.0)) for key in SHAKEN)
         return lower - moved, upper + moved
+
+    @property
+    def stops_move(self):
+        """Whether a stop moves by itself at any point, in the frame of the displacements."""
+        return any(np.any(self.parameter(key, 0.0)) for key in OWN_AMPLITUDES)
 
     def soft_stops(self):
         """Whether the lower and the upper stop are soft, at every point."""
@@ -239,7 +246,9 @@ class Output:
 
     def is_forced(self):
         """Whether a force, or stops or a base that are shaken, drive the mass at any point."""
-        return any(np.any(self.parameter(key, 0.0)) for key in ("force" if self.is_si else "f", *SHAKEN))
+        return any(
+            np.any(self.parameter(key, 0.0)) for key in ("force" if self.is_si else "f", *SHAKEN, *OWN_AMPLITUDES)
+        )
 
     @property
     def is_transient(self):

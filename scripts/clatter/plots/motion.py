@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib import transforms
 
-from .data import WALL, lacks_period
+from .data import OWN_AMPLITUDES, WALL, lacks_period
 from .names import equation, label
 from .empty import say_empty
 from .style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, legend_above
@@ -11,11 +11,18 @@ from .style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, legend_above
 LAST_PERIODS = 20  # of motion without a period that are drawn
 
 
+def tells_states(output):
+    """Whether logged impacts tell the states on both sides of them: not if their velocities are those over something
+    that moves in the picture."""
+    moves = output.is_absolute or output.stops_move or output.has_loose_mass
+    return "impact_count" in output and not moves
+
+
 def motion(output, index):
     """Time, displacement, velocity of one point, with both sides of every logged impact put in. A touch of a soft stop
     has one: its velocity goes on, and v_after is that of the separation, later."""
     tau, x, v = (output.values(name)[index] for name in ("tau", "x", "v"))
-    if "impact_count" not in output or output.is_absolute or output.has_loose_mass:  # impacts are relative
+    if not tells_states(output):
         return tau, x, v
     times, sides, before, after = output.impacts(index)
     position = np.where(sides < 0, *(stop[index] for stop in output.stops()))
@@ -27,6 +34,16 @@ def motion(output, index):
         np.insert(x, place, np.repeat(position, rows)),
         np.insert(v, place, both[np.arange(2) < rows[:, None]]),
     )
+
+
+def path_of_stop(output, side, index, tau):
+    """Where the stop on a side, 0 or 1, of a point is at times of its observed motion; None: it stands."""
+    amplitude = float(output.parameter(OWN_AMPLITUDES[side], 0.0)[index])
+    if not amplitude or output.is_absolute:
+        return None
+    keys = ("phase", "stop_phase", ("stop_phase_lower", "stop_phase_upper")[side])
+    lead = sum(float(output.parameter(key, 0.0)[index]) for key in keys)
+    return output.stops()[side][index] + amplitude * np.sin(2 * np.pi * tau / output.forcing_period(index) + lead)
 
 
 def repeated(tau, values, period, end):
@@ -72,7 +89,7 @@ def first_shown(output, index):
 
 def mark_impacts(output, index, draw, color):
     """The impacts of motion without a period, by draw(time, position, velocity before, style)."""
-    if "impact_count" not in output or output.is_absolute or output.has_loose_mass or not is_aperiodic(output, index):
+    if not tells_states(output) or not is_aperiodic(output, index):
         return
     times, sides, before, _ = output.impacts(index)
     late = times >= first_shown(output, index)
@@ -107,6 +124,10 @@ def time_history(output, quantity, points, axes, end=None):
             tau, values = repeated(tau, values, tau[-1], end)
             axes.set_xlim(0.0, end)
         axes.plot(tau, values, color=color, lw=width, label=title or None)
+        for side in (0, 1) if quantity == "x" and place == 0 else ():
+            path = path_of_stop(output, side, point, tau)
+            if path is not None:
+                axes.plot(tau, path, color=STOP, lw=1.0, zorder=1.5)
         mark_impacts(
             output,
             point,

@@ -11,6 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from .choice import ChoiceProblem, condition, differing_keys, matters
+from .data import OWN_AMPLITUDES
 from .names import equation, label, plain, scale_in, symbol, typeset_unit
 
 DPI = 200  # of PNG; texts are measured for it, once
@@ -192,9 +193,6 @@ def gathered(notes):
             others[others.index(note)] = note.replace(of_lower[0], f", both {of_lower[1]}s")
             others.remove(twin)
     return [*others, white + ", or ".join(reasons)] if reasons else others
-
-
-OWN_AMPLITUDES = ("stop_amplitude_lower", "stop_amplitude_upper")  # of stops that move by themselves
 
 
 def constants(output, title, others=()):
