@@ -11,6 +11,8 @@ import numpy as np
 
 from stop_motion_test import DRIVEN, LIMITS, Motions, moving, stop_at
 
+STRETCHED = 1e-12  # some thousand roundings of 1, as which impacts stretch one; the scenes drawn here take 5e-14
+
 
 def drawn(index):
     """A scene, and whether it may rest: kinds of stops, springs and forces are drawn."""
@@ -49,11 +51,11 @@ class Relations(Motions):
                 asked = {"extrema": True, "impacts": True, "energy": True}
                 mine = self.transient(apart, duration, 9, **asked)
                 its = self.transient(together, duration, 9, **asked, frame="absolute")
-                self.compare(mine, its, 1e-8)
+                self.compare(mine, its, STRETCHED)
                 size = 1 + abs(mine["work_in"]) + mine["loss_damping"] + np.sum(mine["loss_impact"])
                 self.assertLess(abs(mine["energy_residual"]), 1e-11 * size)
                 for name in (*LIMITS, "rest_fraction", "impact_speed", "loss_impact", "impulse"):
-                    np.testing.assert_allclose(mine[name], its[name], rtol=0, atol=1e-8, err_msg=name)
+                    np.testing.assert_allclose(mine[name], its[name], rtol=0, atol=STRETCHED, err_msg=name)
                 if "stop_stiffness" in scene:
                     np.testing.assert_allclose(mine["contact_force_max"], its["contact_force_max"], rtol=1e-7)
 
@@ -68,7 +70,7 @@ class Relations(Motions):
                 self.assertGreater(len(mine["impact_tau"]), 0)
                 names = ("period", "x_amplitude", "multiplier_re", "multiplier_im", "impact_v_before", "impact_speed")
                 for name in (*names, *LIMITS, "rest_fraction", "section_x", "section_v"):
-                    np.testing.assert_allclose(mine[name], its[name], rtol=0, atol=2e-10, err_msg=name)
+                    np.testing.assert_allclose(mine[name], its[name], rtol=0, atol=STRETCHED, err_msg=name)
 
     def test_attractors_are_those_of_one_frame(self):
         """Also where an axis of parameters continues them."""
@@ -110,7 +112,7 @@ class Relations(Motions):
                 its = self.transient({**mirror, **moving((-upper[0], upper[1]), (-lower[0], lower[1]))}, 12.0, 9)
                 for name in ("x", "v", "impact_v_before", "impact_v_after", "impact_stop"):
                     its[name] = -its[name]
-                self.compare(mine, its, 1e-8)
+                self.compare(mine, its, STRETCHED)
 
     def test_a_motion_goes_on_from_where_it_is(self):
         for index in range(200, 212):
@@ -124,7 +126,9 @@ class Relations(Motions):
                     continue  # it rests there, to rounding
                 rest = {**scene, "x0": whole["x"][1], "v0": whole["v"][1], "phase": scene["phase"] + 5.0 * scene["nu"]}
                 later = self.transient(rest, 5.0, 2)
-                np.testing.assert_allclose((later["x"][1], later["v"][1]), (whole["x"][2], whole["v"][2]), atol=1e-8)
+                np.testing.assert_allclose(
+                    (later["x"][1], later["v"][1]), (whole["x"][2], whole["v"][2]), atol=STRETCHED
+                )
 
     def test_multipliers_are_the_derivatives_of_a_period(self):
         for scene in (
@@ -156,7 +160,8 @@ class Relations(Motions):
                     columns.append((ends[0] - ends[1]) / (2 * small))
                 known = np.sort_complex(np.linalg.eigvals(np.array(columns).T))
                 told = np.sort_complex(data["multiplier_re"] + 1j * data["multiplier_im"])
-                np.testing.assert_allclose(told, known, rtol=0, atol=1e-6)
+                # differences over 1e-6 of ends that are known to 1e-15, and what bends over that way
+                np.testing.assert_allclose(told, known, rtol=0, atol=1e-8)
 
     def test_a_base_that_carries_stops_which_move_back_leaves_them_where_they_are(self):
         """Then only the spring and the damper are shaken, which is a force on the ground (eq. 69)."""
@@ -167,9 +172,9 @@ class Relations(Motions):
         shaken = {**scene, "f": f, "base_amplitude": b, **moving((-b, 0.0), (-b, 0.0)), "v0": 0.2 - b * nu}
         mine = self.transient(shaken, 20.0, 9, frame="absolute", extrema=True)
         its = self.transient(ground, 20.0, 9, extrema=True)
-        self.compare(mine, its, 1e-9)
+        self.compare(mine, its, STRETCHED)
         for name in LIMITS:
-            self.assertAlmostEqual(mine[name], its[name], delta=1e-9)
+            self.assertAlmostEqual(mine[name], its[name], delta=STRETCHED)
 
     def test_a_point_is_the_same_alone_and_in_a_sweep(self):
         scene = {key: value for key, value in DRIVEN.items() if key != "nu"} | {"stop_phase_lower": 0.7}

@@ -79,11 +79,13 @@ class ClosedForms(Motions):
 
     def test_a_particle_between_a_wall_and_one_that_moves_is_that_of_fermi_and_ulam(self):
         scene = {"stiffness": 0.0, "nu": 1.0, "R": 1.0, "stop_lower": 0.0, "stop_upper": 10.0, "x0": 1.0, "v0": 1.7}
-        self.check_ballistic({**scene, **moving((0.1, 0.3))}, 24, 2e-11)
+        self.check_ballistic({**scene, **moving((0.1, 0.3))}, 24, 1e-12)  # some roundings of such times
 
     def test_a_ball_flies_between_a_shaken_table_and_a_ceiling(self):
         scene = {"stiffness": 0.0, "load": -1.0, "nu": 2.3, "R": 0.8, "stop_lower": 0.0, "stop_upper": 1.2}
-        self.check_ballistic({**scene, "x0": 0.5, "v0": 1.0, **moving((0.35, 0.2))}, 30, 1e-9)
+        self.check_ballistic(
+            {**scene, "x0": 0.5, "v0": 1.0, **moving((0.35, 0.2))}, 30, 1e-11
+        )  # as impacts stretch roundings, 1.4e-13
 
     def test_a_table_that_falls_faster_than_a_ball_lets_it_go(self):
         amplitude, nu = 0.6, 2.0  # 2.4 times its weight
@@ -123,7 +125,7 @@ class ClosedForms(Motions):
                 self.assertAlmostEqual(data["rest_fraction"][1], 1, delta=1e-14)
                 np.testing.assert_allclose(data["x_amplitude"], [1, 0.1, 0], rtol=1e-12, atol=1e-12)
                 np.testing.assert_allclose([data[name] for name in LIMITS], [0.9, 1.1, -0.005, 0.005], rtol=1e-12)
-                self.assertAlmostEqual(data["impulse"][1], (2.0 - stiffness) * data["period"], delta=1e-9)
+                self.assertAlmostEqual(data["impulse"][1], (2.0 - stiffness) * data["period"], delta=1e-11)
                 self.assertAlmostEqual(data["work_in"], data["loss_damping"], delta=1e-12)
 
     def test_without_a_force_a_mass_comes_to_rest_where_no_stop_gets_to(self):
@@ -144,7 +146,7 @@ class ClosedForms(Motions):
         np.testing.assert_allclose(data["x_amplitude"], [mean, abs(pushed)], rtol=1e-11)
         self.assertEqual(data["contact_fraction"][0], 1)
         force = kappa * (-0.5 - mean) + abs((kappa + 1j * nu * damper) * (b - pushed))
-        self.assertAlmostEqual(data["contact_force_max"][0], force, delta=1e-10)
+        self.assertAlmostEqual(data["contact_force_max"][0], force, delta=1e-12)
 
 
 class Refused(CommandLine):
