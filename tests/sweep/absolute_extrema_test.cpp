@@ -67,14 +67,18 @@ class GroundScan {
   }
   void event(const motion::Event& event) {
     if (event.lasts()) scan(event.time, event.length, [&](double) { return PhasePoint{event.place, 0.0}; });
-    impacts += event.kind == motion::Event::Kind::impact && event.time > 0 ? 1 : 0;
+    rests += event.lasts() ? 1 : 0;
+    if (event.kind != motion::Event::Kind::impact) return;
+    impacts += event.time > 0 ? 1 : 0;
+    const double velocity = event.after + b_ * nu_ * std::cos(nu_ * event.time + theta_);
+    v.highest = std::max(v.highest, velocity), minus_v.highest = std::max(minus_v.highest, -velocity);
   }
 
   [[nodiscard]] double amplitude() const { return std::abs(b_); }  ///< of what is shaken
   [[nodiscard]] double speed() const { return std::abs(b_ * nu_); }
 
   Highest x, minus_x, v, minus_v;
-  int impacts = 0;
+  int impacts = 0, rests = 0;
 
  private:
   template <class Relative>
@@ -143,9 +147,24 @@ TEST(AbsoluteExtrema, of_many_scenes_are_those_of_their_arcs) {
     point::Problem scene = any_shaken(index);
     scene.observe.extrema = true;
     const point::Problem problem = problem_at({.problem = scene}, 0);
-    const auto found = with_effects(effects_of(problem), [&]<Effects E>() { return scan<double, E>(problem); });
+    const auto found = with_any_stops(problem.oscillator, [&]<Effects E>() { return scan<double, E>(problem); });
     expect_extrema(run(scene, Frame::absolute), found, 1e-13);  // the same arcs: sums of some hundred ulps
   }
+}
+
+TEST(AbsoluteExtrema, have_the_velocity_with_which_a_rest_begins) {
+  int rests = 0;
+  for (std::uint64_t index = 0; index < 300; ++index) {
+    SCOPED_TRACE(index);
+    point::Problem scene = any_shaken(index);
+    (index % 4 < 2 ? scene.stops.restitution_lower : scene.stops.restitution_upper) = 0.0;
+    scene.observe.extrema = true;
+    const point::Problem problem = problem_at({.problem = scene}, 0);
+    const auto found = with_any_stops(problem.oscillator, [&]<Effects E>() { return scan<double, E>(problem); });
+    expect_extrema(run(scene, Frame::absolute), found, 1e-13);  // the same arcs: sums of some hundred ulps
+    rests += found.rests;
+  }
+  EXPECT_GT(rests, 100);
 }
 
 TEST(AbsoluteExtrema, has_the_extrema_of_a_dense_scan_whatever_the_spring_the_damper_and_the_force) {

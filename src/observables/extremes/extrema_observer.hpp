@@ -161,11 +161,11 @@ class Extrema::Observer {
   void include_absolute(double x, double v, const SineCosine<double>& theta) {
     x_.include(x + absolute_->frame->displacement(theta)), v_.include(v + absolute_->frame->velocity(theta));
   }
-  /// At rest the mass moves with the stop: it turns back where that does. The ends of a rest belong to the arcs beside
-  /// it, too, but for the beginning and the end of the observed time.
+  /// At rest the mass moves with the stop: it turns back where that does. The arc before a rest or a chatter ends with
+  /// the velocity before its impact, not with that of its beginning; the arc after it begins with that of its end.
   void include_absolute(const motion::Event& rest) {
     const FrameMotion& frame = *absolute_->frame;
-    if (!(rest.time > 0.0)) include_absolute(rest.place, 0.0, frame.at(0.0));
+    include_absolute(rest.place, rest.before, frame.at(rest.time));
     for (int quarter = 0; quarter < 4; ++quarter)
       if (frame.passes(quarter, rest.time, rest.length))
         include_absolute(rest.place, 0.0, sine_cosine_of_turns(quarter / 4.0));
