@@ -74,7 +74,9 @@ class StopFrame {
     const motion::Motion<Number>& m = arc.start();
     const auto [x, v, a] = by_phase({m.sine, m.cosine});
     const motion::Motion<Number> start{Number(0), m.x + x, m.v + v, m.a + a, m.sine, m.cosine};
-    show_under(force_on_base(c.h, c.k, mass_.constants().f), c, c.load, start, &arc, function);
+    if constexpr (Of == Mass::Constants::effects)
+      if (c.stop.side == Side::none) return show_by(free_, start, &arc, function);
+    show_by(over_base(c, force_on_base(c.h, c.k, mass_.constants().f)), start, &arc, function);
   }
   /// The same with the motion of a mass that stays on the stop, from a phase on.
   template <class Function>
@@ -89,10 +91,13 @@ class StopFrame {
     const motion::Arc<Number, Constants::effects>* const none = nullptr;
     // of an oscillator that turns with the stop, or, where the class of damping has none, of a free mass under a force
     if constexpr (E.damping == Damping::light)
-      show_by(Constants::of(Number(0), Number(0), nu, nu * nu * place, nu * nu), start, none, function);
+      show_by(OverBase<Constants::effects>{Constants::of(Number(0), Number(0), nu, nu * nu * place, nu * nu),
+                                           {Number(0), Number(1)}},
+              start, none, function);
     else
-      show_under(force_on_base(Number(0), Number(0), Number(0)),
-                 Constants::of(Number(0), Number(0), nu, Number(0), Number(0)), Number(0), start, none, function);
+      show_by(over_base(Constants::of(Number(0), Number(0), nu, Number(0), Number(0)),
+                        force_on_base(Number(0), Number(0), Number(0))),
+              start, none, function);
   }
 
  private:
@@ -107,7 +112,9 @@ class StopFrame {
               turns_of(Number(scene.start.phase + force.lead))),
         side_(side),
         amplitude_(motion.amplitude),
-        lead_(sine_cosine_of_turns(turns_of(Number(motion.phase - force.lead)))) {}
+        lead_(sine_cosine_of_turns(turns_of(Number(motion.phase - force.lead)))),
+        free_(over_base(mass_.constants(),
+                        force_on_base(mass_.constants().h, mass_.constants().k, mass_.constants().f))) {}
 
   [[nodiscard]] static BasicOscillator<Number> under(BasicOscillator<Number> oscillator, const Number& force) {
     oscillator.forcing = force;
@@ -130,27 +137,36 @@ class StopFrame {
     const Number &b = amplitude_, &nu = mass_.constants().nu, P = b * (k - nu * nu), Q = 2 * h * nu * b;
     return leading_force(Number(own + P * lead_.cosine - Q * lead_.sine), Number(P * lead_.sine + Q * lead_.cosine));
   }
-  /// Shows the arc of an oscillator under a force that leads that of this frame.
-  template <Effects Of, class Function>
-  void show_under(const LeadingForce<Number>& force, const motion::ArcConstants<Number, Of>& like, const Number& load,
-                  motion::Motion<Number> start, const motion::Arc<Number, Of>* seen, Function&& function) const {
+  /// An oscillator as the base sees it.
+  template <Effects Of>
+  struct OverBase {
+    motion::ArcConstants<Number, Of> constants;
+    SineCosine<Number> lead;  ///< of the force on it over that of this frame
+  };
+  /// One that is otherwise like that of this frame, or one of its soft stop.
+  template <Effects Of>
+  [[nodiscard]] static OverBase<Of> over_base(const motion::ArcConstants<Number, Of>& like,
+                                              const LeadingForce<Number>& force) {
     using std::cos, std::sin;
-    auto constants = motion::ArcConstants<Number, Of>::of(like.h, force.amplitude, like.nu, load, like.k);
+    auto constants = motion::ArcConstants<Number, Of>::of(like.h, force.amplitude, like.nu, like.load, like.k);
     constants.stop = like.stop;
-    const Number sine = start.sine, cosine = start.cosine, s = sin(force.lead), c = cos(force.lead);
-    start.sine = sine * c + cosine * s, start.cosine = cosine * c - sine * s;
-    show_by(constants, start, seen, function);
+    return {constants, {sin(force.lead), cos(force.lead)}};
   }
+  /// Shows an arc of it, of which `start` has the phase of the force of this frame.
   template <Effects Of, class Function>
-  static void show_by(const motion::ArcConstants<Number, Of>& constants, const motion::Motion<Number>& start,
-                      const motion::Arc<Number, Of>* seen, Function&& function) {
-    function(ArcOverBase<Number, Of>(constants, start, seen));
+  static void show_by(const OverBase<Of>& over, motion::Motion<Number> start, const motion::Arc<Number, Of>* seen,
+                      Function&& function) {
+    const Number sine = start.sine, cosine = start.cosine;
+    start.sine = sine * over.lead.cosine + cosine * over.lead.sine;
+    start.cosine = cosine * over.lead.cosine - sine * over.lead.sine;
+    function(ArcOverBase<Number, Of>(over.constants, start, seen));
   }
 
   Mass mass_;
   Side side_;
   Number amplitude_, low_{};
-  SineCosine<Number> lead_;  ///< of the stop over the force of this frame
+  SineCosine<Number> lead_;                  ///< of the stop over the force of this frame
+  OverBase<Mass::Constants::effects> free_;  ///< the mass that no soft stop pushes
 };
 
 /// The frames of the stops of a scene, and that of the base.
