@@ -106,6 +106,7 @@ class Stacks(Limits):
             "accuracy",
             self.config,
             "-q",
+            "--rounds=1",
             "--set=sweep.nu=1",
             "--set=time.mode=transient",
             "--set=time.duration=20",

@@ -129,7 +129,7 @@ class Machine(StoppedRuns):
 
     def test_accuracy_is_measured(self):
         config = self.write("a.toml", DRIVE + 'frequency = "25 Hz"\n[time]\nwindow = 4\n')
-        measured = self.clatter("accuracy", config, "-q")
+        measured = self.clatter("accuracy", config, "-q", "--rounds", "1")
         self.assertEqual((measured.returncode, measured.stderr), (0, ""))
         self.assertIn("exact in ", measured.stdout)
 

@@ -111,13 +111,13 @@ class Warnings(CommandLine):
             '[scene]\nxs = 1\nv0 = 1\nnu = 2\n[time]\nmode = "transient"\nduration = 1\n'
             "window = 9\n[integrator]\ntheta = 1\n",
         )
-        result = self.clatter("accuracy", config, "--json", "--arch", "scalar")
+        result = self.clatter("accuracy", config, "--rounds", "1", "--json", "--arch", "scalar")
         self.assertEqual(result.returncode, 0, result.stderr)
         said = [line for line in result.stderr.splitlines() if "warning" in line]
         self.assertEqual(
             [line.split(" has ")[0] for line in said], ["a.toml:4:1: warning: 'nu'", "a.toml:8:1: warning: 'window'"]
         )
-        quiet = self.clatter("accuracy", config, "--json", "--arch", "scalar", "-q")
+        quiet = self.clatter("accuracy", config, "--rounds", "1", "--json", "--arch", "scalar", "-q")
         self.assertEqual(quiet.stderr, "")
 
     def test_defaults_and_the_configuration_of_an_output_give_none(self):

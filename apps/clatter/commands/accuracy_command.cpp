@@ -43,10 +43,12 @@ PointText text_of(const Arguments& arguments) {
 
 /// Measures and prints all points, or fewer if it is interrupted.
 std::vector<accuracy::PointAccuracy> measure_points(const sweep::Sweep& sweep, lanes::InstructionSet arch,
-                                                    PointText text_of, ProgressKind shown) {
+                                                    PointText text_of, ProgressKind shown,
+                                                    const std::optional<int>& rounds) {
   const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.problem.time.mode, arch);
   Progress progress(shown, "runs");
   accuracy::AccuracyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
+  if (rounds) options.rounds = *rounds;
   std::vector<accuracy::PointAccuracy> points;
   std::size_t finished = 0;
   const auto total = static_cast<double>(size(sweep) * steps_of(trials.size(), options));
@@ -79,6 +81,7 @@ int run_accuracy(const Arguments& arguments) {
   const lanes::InstructionSet arch = arch_of(arguments);
   const PointText text_of_point = text_of(arguments);
   const ProgressKind shown = progress_kind(arguments);
+  const std::optional<int> rounds = count_of(arguments, "rounds", 1000);
   const std::string output = output_of(arguments, ".accuracy.h5");
   const config::Config config = config_of(arguments);
   check_scenes(config, arguments.operands[0]);
@@ -86,7 +89,7 @@ int run_accuracy(const Arguments& arguments) {
   storage::require_idle(output);
   if (!arguments.has("quiet")) warn(config, not_read);
   const Interrupt interrupt;
-  const std::vector<accuracy::PointAccuracy> points = measure_points(config.sweep, arch, text_of_point, shown);
+  const std::vector<accuracy::PointAccuracy> points = measure_points(config.sweep, arch, text_of_point, shown, rounds);
   if (const int signal = Interrupt::signal()) {
     std::cerr << "stopped after " << points.size() << " of " << size(config.sweep) << " points; "
               << storage::printable(output) << " is not written\n";
@@ -118,6 +121,7 @@ Command accuracy_command() {
                       arch_option,
                       {"verbose", 'v', "", "print every row as well: all settings, errors and counts"},
                       {"json", 0, "", "print a JSON object per row instead"},
+                      {"rounds", 0, "N", "measure each time N times, 1 to 1000; default: 9"},
                       progress_option,
                       {"quiet", 'q', "", "print no progress, only answers and errors"},
                       {"help", 'h', "", "print this help"}},

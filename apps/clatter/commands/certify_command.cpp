@@ -1,4 +1,3 @@
-#include <charconv>
 #include <functional>
 #include <iostream>
 #include <optional>
@@ -23,17 +22,6 @@
 namespace clatter::app {
 namespace {
 
-/// The number of --sample; nothing if it isn't given.
-std::optional<std::size_t> sample_of(const Arguments& arguments) {
-  const std::optional<std::string> word = arguments.value("sample");
-  if (!word) return std::nullopt;
-  std::size_t count = 0;
-  const auto [end, error] = std::from_chars(word->data(), word->data() + word->size(), count);
-  if (error != std::errc{} || end != word->data() + word->size() || count == 0)
-    throw UsageError("--sample " + config::in_quotes(*word) + "; expected a whole number from 1 on");
-  return count;
-}
-
 /// What became of the points of an output, and the instruction set that this machine lacks of it.
 struct Outcome {
   certificates::Tally tally;
@@ -41,8 +29,9 @@ struct Outcome {
 };
 
 /// Certifies the points of an output of `clatter run` or `clatter branch`.
-Outcome outcome_of(const std::string& path, const std::vector<Condition>& conditions,
-                   const std::optional<std::size_t>& sample, const std::function<void(std::string_view line)>& take) {
+Outcome outcome_of(const std::string& path, const std::vector<Condition>& conditions, const std::optional<int>& count,
+                   const std::function<void(std::string_view line)>& take) {
+  const auto sample = count ? std::optional(static_cast<std::size_t>(*count)) : std::nullopt;
   const auto origin = results::origin_of(path);
   if (origin && origin->command == "accuracy")
     storage::refuse_reading(path, "holds what accuracy costs, not motions",
@@ -58,7 +47,7 @@ Outcome outcome_of(const std::string& path, const std::vector<Condition>& condit
 
 int certify(const Arguments& arguments) try {
   const auto conditions = conditions_of(arguments);
-  const std::optional<std::size_t> sample = sample_of(arguments);
+  const std::optional<int> sample = count_of(arguments, "sample");
   const std::optional<std::string> output = text_output_of(arguments, FileKind::certificates);
   std::string text;
   const auto write = [&](std::string_view line) {

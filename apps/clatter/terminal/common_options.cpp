@@ -57,16 +57,18 @@ config::Config config_of(const Arguments& arguments, const std::vector<config::O
   return config;
 }
 
-int threads_of(const Arguments& arguments) {
-  const std::optional<std::string> word = arguments.value("threads");
-  if (!word) return 0;
-  int threads = 0;
-  const auto [end, error] = std::from_chars(word->data(), word->data() + word->size(), threads);
-  if (error != std::errc{} || end != word->data() + word->size() || threads < 1 || threads > 1024) {
-    throw UsageError("--threads " + config::in_quotes(*word) + "; expected a whole number from 1 to 1024");
-  }
-  return threads;
+std::optional<int> count_of(const Arguments& arguments, std::string_view option, std::optional<int> most) {
+  const std::optional<std::string> word = arguments.value(option);
+  if (!word) return std::nullopt;
+  int count = 0;
+  const auto [end, error] = std::from_chars(word->data(), word->data() + word->size(), count);
+  if (error != std::errc{} || end != word->data() + word->size() || count < 1 || (most && count > *most))
+    throw UsageError("--" + std::string(option) + ' ' + config::in_quotes(*word) + "; expected a whole number from 1 " +
+                     (most ? "to " + std::to_string(*most) : "on"));
+  return count;
 }
+
+int threads_of(const Arguments& arguments) { return count_of(arguments, "threads", 1024).value_or(0); }
 
 std::optional<results::Shard> shard_of(const Arguments& arguments) {
   const std::optional<std::string> word = arguments.value("shard");

@@ -27,6 +27,10 @@ inline const Option threads_option{"threads", 0, "N",
 /// IoError.
 [[nodiscard]] config::Config config_of(const Arguments& arguments, const std::vector<config::Override>& changes = {});
 
+/// The number of an option that counts something, from 1 to `most` or on; nothing if it isn't given. Throws UsageError.
+[[nodiscard]] std::optional<int> count_of(const Arguments& arguments, std::string_view option,
+                                          std::optional<int> most = std::nullopt);
+
 /// The number of --threads; 0 if it isn't given. Throws UsageError.
 [[nodiscard]] int threads_of(const Arguments& arguments);
 
