@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "accuracy/observed_run.hpp"
-#include "point/every_effect.hpp"
+#include "motion/walls.hpp"
 #include "point/exact_motion.hpp"
 #include "point/fixed_point.hpp"
+#include "point/reference_motion.hpp"
 
 namespace clatter::accuracy {
 namespace {
-
-using namespace clatter::accuracy::detail;
 
 constexpr double same_time = 1e-9;
 
@@ -24,9 +22,14 @@ Event* last_of_its_mass(std::vector<Event>& events, const Event& event) {
 
 }  // namespace
 
-Event as_impact(Event contact) {
-  contact.kind = Event::Kind::impact;
-  return contact;
+std::vector<Event> as_compared(const std::vector<Event>& events) {
+  using Kind = Event::Kind;
+  std::vector<Event> compared;
+  for (Event event : events) {
+    if (event.kind == Kind::touch || event.kind == Kind::renewal) event.kind = Kind::impact;
+    if (event.kind != Kind::separation) compared.push_back(event);
+  }
+  return compared;
 }
 
 /// Those that a section cuts are one; a stick may follow another one.
@@ -80,20 +83,54 @@ RunRecord record_of(const point::Problem& scene, double duration) {
   record.outcome = motion->run_for(state, duration / motion->period(), recorder);
   record.x = state.x, record.v = state.v;
   record.impacts = motion->impacts(), record.evaluations = motion->evaluations();
-  for (const Event& event : recorder.events) {
-    const bool is_soft_contact = event.kind == Event::Kind::touch || event.kind == Event::Kind::renewal;
-    if (event.kind != Event::Kind::separation) record.events.push_back(is_soft_contact ? as_impact(event) : event);
-  }
+  record.events = as_compared(recorder.events);
   if (!has_loose_mass(scene.loose)) return record;
   const auto [z, w] = motion::place_in_housing(state, scene.loose);
   record.z = z, record.w = w;
   record.events = with_slow_impacts_summed(record.events);
   return record;
 }
+namespace {
+
+/// A run in 50 digits from a state on, for a time in forcing periods.
+RunRecord reference_from(const point::Problem& scene, point::ReferenceMotion& motion, motion::State<FiftyDigits> state,
+                         const FiftyDigits& turns, double duration, const std::optional<RecordObservables>& observables,
+                         const std::function<bool()>& stopped) {
+  point::ReferenceRecorder recorder;
+  if (observables) recorder.harmonics.emplace(observables->harmonics, observables->base_frequency);
+  RunRecord record;
+  record.duration = duration;
+  record.outcome = motion.run_for(state, turns, recorder, stopped);
+  record.x = static_cast<double>(state.x), record.v = static_cast<double>(state.v);
+  record.impacts = motion.impacts(), record.evaluations = motion.evaluations();
+  record.events = as_compared(recorder.events);
+  if (has_loose_mass(scene.loose)) {
+    const auto [z, w] = motion::place_in_housing(state, scene.loose);
+    record.z = static_cast<double>(z), record.w = static_cast<double>(w);
+    record.events = with_slow_impacts_summed(record.events);
+  }
+  if (!observables) return record;
+  recorder.harmonics->finish(record.x, duration);
+  record.harmonics = recorder.harmonics->displacement(), record.v_harmonics = recorder.harmonics->velocity();
+  record.x_range = recorder.extrema.displacement(outermost(rigid_ones(scene.stops)));
+  record.v_range = recorder.extrema.velocity();
+  return record;
+}
+
+/// A scene as double computes it, which has rounded its numbers before a method, which is judged, begins.
+point::Problem as_computed(point::Problem scene) {
+  scene.given.reset();
+  return scene;
+}
+
+}  // namespace
+
 RunRecord reference_of(const point::Problem& scene, double duration,
                        const std::optional<RecordObservables>& observables, const std::function<bool()>& stopped) {
-  return point::with_every_effect_and_mass(
-      scene, [&]<Effects effects>() { return run_over<FiftyDigits, effects>(scene, duration, observables, stopped); });
+  const auto motion = point::ReferenceMotion::of(as_computed(scene));
+  const FiftyDigits period = 2 * pi<FiftyDigits>() / FiftyDigits(counting_frequency(scene.oscillator));
+  return reference_from(scene, *motion, motion->start(), FiftyDigits(FiftyDigits(duration) / period), duration,
+                        observables, stopped);
 }
 
 std::optional<RunRecord> periodic_reference(const point::Problem& scene, double periods,
@@ -101,14 +138,13 @@ std::optional<RunRecord> periodic_reference(const point::Problem& scene, double 
                                             const std::function<bool()>& stopped) {
   if (periods != std::floor(periods)) return std::nullopt;
   const auto find = has_loose_mass(scene.loose) ? point::fixed_point_in_housing : point::fixed_point;
-  point::Problem as_computed = scene;  // whose numbers double has rounded before a method, which is judged, begins
-  as_computed.given.reset();
-  const auto exact = find(as_computed, start_of<double>(scene), static_cast<std::int64_t>(periods), stopped);
+  const point::Problem computed = as_computed(scene);
+  const auto motion = point::ReferenceMotion::of(computed);
+  const auto exact =
+      find(computed, point::ExactMotion::of(scene)->start(), static_cast<std::int64_t>(periods), stopped);
   if (!exact) return std::nullopt;
-  const double duration = periods * period_of(scene.oscillator);
-  return point::with_every_effect_and_mass(scene, [&]<Effects effects>() {
-    return run_from<FiftyDigits, effects>(scene, exact->start, FiftyDigits(periods), duration, observables, stopped);
-  });
+  return reference_from(scene, *motion, exact->start, FiftyDigits(periods), periods * period_of(scene.oscillator),
+                        observables, stopped);
 }
 
 }  // namespace clatter::accuracy

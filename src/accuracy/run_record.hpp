@@ -16,8 +16,9 @@ namespace clatter::accuracy {
 
 using motion::Event;
 
-/// A contact with a soft stop, which is counted like an impact.
-[[nodiscard]] Event as_impact(Event contact);
+/// The events of a run, as recorders keep them, as they are compared: contacts with soft stops as impacts, and no
+/// separations.
+[[nodiscard]] std::vector<Event> as_compared(const std::vector<Event>& events);
 
 /// Joins the parts into which stroboscopic sections cut a rest or a chatter: then there is one for each time on a stop.
 [[nodiscard]] std::vector<Event> with_rests_joined(const std::vector<Event>& events);

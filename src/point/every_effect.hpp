@@ -16,13 +16,17 @@ decltype(auto) with_every_effect(const Scene& scene, Function&& function) {
   return function.template operator()<effect_sets::with_friction(Damping::heavy, Forcing::regular)>();
 }
 
-/// The same for a scene that may have a loose mass, which has two sets of its own.
+/// The same for a scene whose stops don't move by themselves, and which may have a loose mass: one of four.
 template <class Function>
-decltype(auto) with_every_effect_and_mass(const Scene& scene, Function&& function) {
-  if (!has_loose_mass(scene.loose)) return with_every_effect(scene, std::forward<Function>(function));
+decltype(auto) with_every_effect_but_own_motion(const Scene& scene, Function&& function) {
+  if (has_loose_mass(scene.loose)) {
+    if (rotates(scene.oscillator))
+      return function.template operator()<effect_sets::with_everything(Damping::light, Forcing::secular)>();
+    return function.template operator()<effect_sets::with_everything(Damping::heavy, Forcing::regular)>();
+  }
   if (rotates(scene.oscillator))
-    return function.template operator()<effect_sets::with_everything(Damping::light, Forcing::secular)>();
-  return function.template operator()<effect_sets::with_everything(Damping::heavy, Forcing::regular)>();
+    return function.template operator()<effect_sets::with_standing_stops(Damping::light, Forcing::secular)>();
+  return function.template operator()<effect_sets::with_standing_stops(Damping::heavy, Forcing::regular)>();
 }
 
 }  // namespace clatter::point

@@ -5,12 +5,10 @@
 
 #include "motion/loose_tangent.hpp"
 #include "motion/walls.hpp"
-#include "point/every_effect.hpp"
 #include "point/exact_motion.hpp"
 #include "point/fifty_digit_periods.hpp"
 #include "point/fixed_point.hpp"
-#include "stepping/exact.hpp"
-#include "stepping/run.hpp"
+#include "point/reference_motion.hpp"
 
 namespace clatter::point {
 namespace {
@@ -26,10 +24,11 @@ std::optional<motion::LooseJacobian> derivative_over(const Problem& problem, mot
   return recorder.loose->map();
 }
 
+}  // namespace
+
 /// The derivative in double serves all iterations: each leaves as small a share of the error as its rounding.
-template <Effects E>
-std::optional<FixedPoint> find_fixed_point(const Problem& problem, const motion::State<double>& near,
-                                           std::int64_t periods, const std::function<bool()>& stopped) {
+std::optional<FixedPoint> fixed_point_in_housing(const Problem& problem, const motion::State<double>& near,
+                                                 std::int64_t periods, const std::function<bool()>& stopped) {
   constexpr int most_iterations = 12;
   const auto map = derivative_over(problem, near, periods);
   if (!map) return std::nullopt;
@@ -37,8 +36,10 @@ std::optional<FixedPoint> find_fixed_point(const Problem& problem, const motion:
   found.start.x = near.x, found.start.v = near.v;
   found.start.loose = {near.loose.wall, near.loose.place, near.loose.speed, near.loose.pressed};
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    stepping::NoObserver nobody;
-    const auto state = run_periods<stepping::Exact<FiftyDigits, E>>(problem, found, periods, stopped, nobody);
+    const auto motion = ReferenceMotion::of(problem);
+    ReferenceRecorder recorder;
+    const auto state =
+        run_periods(found, periods, stopped, [&](auto& at) { return motion->advance_to_section(at, recorder); });
     if (!state) return std::nullopt;
     const auto begin = motion::numbers_of(found.start, problem.loose), end = motion::numbers_of(*state, problem.loose);
     motion::Four<double> off;
@@ -53,16 +54,6 @@ std::optional<FixedPoint> find_fixed_point(const Problem& problem, const motion:
     found.start = motion::moved(found.start, by);
   }
   return std::nullopt;
-}
-
-}  // namespace
-
-std::optional<FixedPoint> fixed_point_in_housing(const Problem& problem, const motion::State<double>& near,
-                                                 std::int64_t periods, const std::function<bool()>& stopped) {
-  return with_every_effect_and_mass(problem, [&]<Effects E>() -> std::optional<FixedPoint> {
-    if constexpr (E.loose) return find_fixed_point<E>(problem, near, periods, stopped);
-    return std::nullopt;
-  });
 }
 
 }  // namespace clatter::point

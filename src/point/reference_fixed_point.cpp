@@ -1,13 +1,18 @@
 #include "point/motions_in_digits.hpp"
-#include "stepping/exact.hpp"
+#include "point/reference_motion.hpp"
 
 namespace clatter::point {
 
-// The reference that double is judged by finds its contacts without double.
 std::optional<FixedPoint> fixed_point(const Problem& problem, const motion::State<double>& near, std::int64_t periods,
                                       const std::function<bool()>& stopped) {
-  return with_every_effect(problem, [&]<Effects E>() {
-    return find_fixed_point<stepping::Exact<FiftyDigits, E>>(problem, near, periods, stopped);
+  return find_fixed_point<FiftyDigits>(near, [&](FixedPoint& found) -> std::optional<Round<FiftyDigits>> {
+    const auto motion = ReferenceMotion::of(problem);
+    ReferenceRecorder recorder;
+    recorder.tangent.emplace(problem.stops);
+    const auto end =
+        run_periods(found, periods, stopped, [&](auto& state) { return motion->advance_to_section(state, recorder); });
+    if (!end) return std::nullopt;
+    return Round<FiftyDigits>{*end, recorder.tangent->map()};
   });
 }
 

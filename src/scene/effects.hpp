@@ -80,9 +80,15 @@ namespace effect_sets {
   effects.soft = true;
   return effects;
 }
-[[nodiscard]] constexpr Effects with_friction(Damping damping, Forcing forcing) {
+/// All that a mass without a loose one can have but stops that move by themselves.
+[[nodiscard]] constexpr Effects with_standing_stops(Damping damping, Forcing forcing) {
   Effects effects = with_soft_stops(damping, forcing);
-  effects.friction = effects.own_motion = true;
+  effects.friction = true;
+  return effects;
+}
+[[nodiscard]] constexpr Effects with_friction(Damping damping, Forcing forcing) {
+  Effects effects = with_standing_stops(damping, forcing);
+  effects.own_motion = true;
   return effects;
 }
 /// The main mass has no stops. While a wall presses the loose mass the two move as one, on a spring of another k.
@@ -92,8 +98,8 @@ namespace effect_sets {
 
 /// A loose mass, and a main mass with stops of any kind and friction.
 [[nodiscard]] constexpr Effects with_everything(Damping damping, Forcing forcing) {
-  Effects effects = with_friction(damping, forcing);
-  effects.loose = true, effects.own_motion = false;
+  Effects effects = with_standing_stops(damping, forcing);
+  effects.loose = true;
   return effects;
 }
 
@@ -252,15 +258,14 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
   if (has_loose_mass(scene.loose))
     return has_events_of_its_own(scene) ? effect_sets::with_everything(damping, Forcing::regular)
                                         : effect_sets::with_loose_mass(damping, Forcing::regular);
-  if (has_friction(scene.friction) || move_by_themselves(scene.stops))
-    return effect_sets::with_friction(damping, Forcing::regular);
+  if (has_friction(scene.friction)) return effect_sets::with_standing_stops(damping, Forcing::regular);
   if (!has_soft_stop(scene.stops)) return general_effects(scene.oscillator);
   return effect_sets::with_soft_stops(damping, Forcing::regular);
 }
 
-/// Calls `function.operator()<set>()` for one of the sets that general methods are compiled with: two without a loose
-/// mass and two with it. Each contains all effects of its scenes: beside their evaluations of the equation no effect
-/// costs anything worth leaving it out.
+/// Calls `function.operator()<set>()` for one of the sets that general methods, which take no stops that move by
+/// themselves, are compiled with: two without a loose mass and two with it. Each contains all effects of its scenes:
+/// beside their evaluations of the equation no effect costs anything worth leaving it out.
 template <class Function>
 decltype(auto) with_general_effects(const Scene& scene, Function&& function) {
   if (has_loose_mass(scene.loose)) {
@@ -269,8 +274,8 @@ decltype(auto) with_general_effects(const Scene& scene, Function&& function) {
     return function.template operator()<effect_sets::with_everything(Damping::heavy, Forcing::regular)>();
   }
   if (rotates(scene.oscillator))
-    return function.template operator()<effect_sets::with_friction(Damping::light, Forcing::regular)>();
-  return function.template operator()<effect_sets::with_friction(Damping::heavy, Forcing::regular)>();
+    return function.template operator()<effect_sets::with_standing_stops(Damping::light, Forcing::regular)>();
+  return function.template operator()<effect_sets::with_standing_stops(Damping::heavy, Forcing::regular)>();
 }
 
 /// Calls `function.operator()<set>()` for an oscillator between any rigid stops: one of the twelve complete sets.

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "point/every_effect.hpp"
 #include "scene/effects.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
@@ -42,7 +43,7 @@ point::Problem any_scene(support::Random& random) {
 
 /// The states of a motion at forcing phase 0 from one of them on, by the scalar loop with every effect.
 std::vector<PhasePoint> long_run(const point::Problem& scene, double x, double v) {
-  return with_any_stops(scene.oscillator, [&]<Effects E>() {
+  return point::with_every_effect(scene, [&]<Effects E>() {
     stepping::Exact<double, E> integrator(scene);
     motion::State<double> state;
     state.x = x, state.v = v;

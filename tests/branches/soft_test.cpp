@@ -13,10 +13,7 @@
 #include "branches/measures/measures.hpp"
 #include "branches/special_values.hpp"
 #include "branches/start/start.hpp"
-#include "motion/tangent_map.hpp"
-#include "scene/required_effects.hpp"
-#include "stepping/exact.hpp"
-#include "stepping/run.hpp"
+#include "point/exact_motion.hpp"
 #include "support/soft_scene.hpp"
 #include "sweep/sweep.hpp"
 
@@ -29,35 +26,19 @@ struct Round {
   double trace;
 };
 
-/// Passes all to the derivative of the motion.
-struct Differentiating {
-  motion::TangentMap<double>& map;
-
-  template <class A>
-  void arc(const A& arc, double begin, double length) {
-    map.arc(arc, begin, length);
-  }
-  void event(const motion::Event& event) { map.event(event); }
-};
-
 std::optional<Round> round_of(const point::Problem& given, const BranchPoint& point, double aside = 0.0) {
   point::Problem problem = with_scene(given, point.scene);
   sweep::enter_shaken_frame(problem);
   PhasePoint from = state_at_phase_zero(point.scene, point.orbit);
   from.x += aside;
   problem = attractors::started(problem, from, 0.0);
-  const Effects effects = required_effects(problem);
-  return with_effects(effects, [&]<Effects E>() -> std::optional<Round> {
-    stepping::Exact<double, E> integrator(problem, stops_in_reach(problem.stops, effects), limits_of(problem));
-    motion::State<double> state;
-    state.x = from.x, state.v = from.v;
-    motion::TangentMap<double> map(integrator.stops());
-    Differentiating observer{map};
-    if (run_for(integrator, state, point.orbit.period_ratio(), observer) != stepping::Outcome::completed)
-      return std::nullopt;
-    const motion::Jacobian<double> m = map.map();
-    return Round{{state.x, state.v}, m[0] + m[3]};
-  });
+  const auto motion = point::ExactMotion::of(problem);
+  point::MotionRecorder recorder(motion->stops());
+  recorder.watch.differentiate();
+  motion::State<double> state = motion->start();
+  if (motion->run_for(state, point.orbit.period_ratio(), recorder) != stepping::Outcome::completed) return std::nullopt;
+  const motion::Jacobian<double> m = recorder.watch.derivative();
+  return Round{{state.x, state.v}, m[0] + m[3]};
 }
 
 double largest_multiplier(const BranchPoint& point) {

@@ -9,6 +9,7 @@
 #include "point/problem.hpp"
 #include "steady/find_steady.hpp"
 #include "support/random.hpp"
+#include "support/seen_arc.hpp"
 #include "support/told.hpp"
 
 namespace clatter::hard {
@@ -93,34 +94,36 @@ struct Watcher {
   void section(const motion::State<double>&) {}  ///< the end of a section, and of the run
 };
 
-/// Runs a scene from its start, from section to section, for its duration.
-template <class Integrator, class W>
-[[nodiscard]] stepping::Outcome watch(Integrator& integrator, motion::State<double>& state, double duration,
-                                      W& watcher) {
-  support::Told told(watcher);
-  for (double turns = duration / integrator.period(); turns > 0; turns -= 1) {
-    const stepping::Outcome outcome = integrator.advance(state, std::min(turns, 1.0), state.periods, told);
-    if (outcome != stepping::Outcome::completed) return outcome;
-    watcher.section(state);
-    if (turns >= 1) state.phase_turns = 0, ++state.periods;
-  }
-  return stepping::Outcome::completed;
-}
-
 [[nodiscard]] inline motion::State<double> start_of(const point::Problem& scene) {
   motion::State<double> state;
   state.x = scene.start.displacement, state.v = scene.start.velocity;
   return state;
 }
 
-/// Runs a scene, reporting to an observer.
+/// A watcher of any kind.
+class AnyWatcher : public support::AnyObserver {
+ public:
+  virtual void section(const motion::State<double>& state) = 0;
+};
 template <class W>
-[[nodiscard]] stepping::Outcome watch(const AnyScene& any, W& watcher) {
-  return with_any_stops(any.scene, [&]<Effects effects>() {
-    stepping::Exact<double, effects> integrator(any.scene, limits_of(any.scene));
-    motion::State<double> state = start_of(any.scene);
-    return watch(integrator, state, any.duration, watcher);
-  });
+class Watching : public AnyWatcher {
+ public:
+  explicit Watching(W& watcher) : watcher_(watcher), told_(watcher) {}
+  void arc(const support::SeenArc& arc, double begin, double length) override { told_.arc(arc, begin, length); }
+  void event(const motion::Event& event) override { told_.event(event); }
+  void section(const motion::State<double>& state) override { watcher_.section(state); }
+
+ private:
+  W& watcher_;
+  support::Told<W> told_;
+};
+
+/// Runs a scene from its start, so many sections after the first one, for its duration; compiled once, whoever watches.
+[[nodiscard]] stepping::Outcome watched(const AnyScene& any, AnyWatcher& watcher, std::int64_t sections);
+template <class W>
+[[nodiscard]] stepping::Outcome watch(const AnyScene& any, W& watcher, std::int64_t sections = 0) {
+  Watching<W> watching(watcher);
+  return watched(any, watching, sections);
 }
 
 }  // namespace clatter::hard

@@ -12,6 +12,7 @@
 #include "hard/panels.hpp"
 #include "hard/tally.hpp"
 #include "observables/harmonics/exact_harmonics.hpp"
+#include "point/every_effect.hpp"
 
 namespace clatter::hard::periodic_test {
 namespace {
@@ -106,7 +107,7 @@ void in_steady_scenes(Check&& check) {
     if (any.index % 10 != 0) return;
     any.scene.time.mode = steady::Mode::steady, any.scene.time.max_periods = 300, any.scene.time.max_impacts = 1e4;
     any.scene.time.tolerance = 1e-13;
-    with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
+    point::with_every_effect(any.scene, [&]<Effects effects>() {
       stepping::Exact<double, effects> integrator(any.scene, limits_of(any.scene));
       check(any, integrator,
             find_steady(integrator, start_of(any.scene), any.scene, any.scene.time, any.scene.integration));

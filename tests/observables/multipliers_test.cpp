@@ -14,6 +14,7 @@
 
 #include "scene/response.hpp"
 #include "support/loose_scenes.hpp"
+#include "support/methods.hpp"
 
 namespace clatter::observables::multipliers_test {
 namespace {
@@ -116,7 +117,7 @@ TEST(Multipliers, the_tangent_is_that_of_difference_quotients) {
       scene.start.displacement += change[0], scene.start.velocity += change[1];
       scene.loose.place += change[2] - change[0], scene.loose.velocity += change[3] - change[1];
       Exact exact(scene);
-      motion::State<double> state = point::start_of(scene);
+      motion::State<double> state = support::start_of(scene);
       EXPECT_EQ(run_for(exact, state, of.turns, observer), stepping::Outcome::completed);
       const auto [z, w] = motion::place_in_housing(state, scene.loose);
       return std::array{state.x, state.v, state.x + z, state.v + w};

@@ -12,6 +12,7 @@
 
 #include "math/fifty_digits.hpp"
 #include "point/exact_motion.hpp"
+#include "point/reference_motion.hpp"
 #include "support/loose_scenes.hpp"
 
 namespace clatter::observables::stability_by_speed_test {
@@ -48,22 +49,12 @@ std::vector<NamedLaw> every_law() {
 }
 
 /// The state after a time in forcing periods, by a change of that at the start.
-template <Effects effects>
-motion::Four<FiftyDigits> moved_to(const point::Problem& scene, const Vector& change, double turns) {
-  stepping::Exact<FiftyDigits, effects> exact(scene, limits_of(scene));
-  motion::State<FiftyDigits> state;
-  state.x = scene.start.displacement, state.v = scene.start.velocity;
-  if (has_loose_mass(scene.loose)) state.loose = motion::loose_start<FiftyDigits>(scene);
-  state = motion::moved(state, change);
-  stepping::NoObserver none;
-  EXPECT_EQ(run_for(exact, state, FiftyDigits(turns), none), stepping::Outcome::completed);
-  return motion::numbers_of(state, scene.loose);
-}
 motion::Four<FiftyDigits> after(const point::Problem& scene, const Vector& change, double turns) {
-  using namespace effect_sets;
-  if (!has_loose_mass(scene.loose))
-    return moved_to<with_friction(Damping::light, Forcing::secular)>(scene, change, turns);
-  return moved_to<with_everything(Damping::light, Forcing::secular)>(scene, change, turns);
+  const auto exact = point::ReferenceMotion::of(scene);
+  motion::State<FiftyDigits> state = motion::moved(exact->start(), change);
+  point::ReferenceRecorder recorder;
+  EXPECT_EQ(exact->run_for(state, FiftyDigits(turns), recorder), stepping::Outcome::completed);
+  return motion::numbers_of(state, scene.loose);
 }
 /// The derivative of that by the start.
 Matrix by_differences(const point::Problem& scene, double turns) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "support/loose_scenes.hpp"
+#include "support/methods.hpp"
 
 namespace clatter::observables::wall_grazes_test {
 namespace {
@@ -57,7 +58,7 @@ TEST(WallGrazes, a_turn_within_rounding_of_the_wall_is_one_and_so_is_an_impact_t
       const point::Problem scene = Hover(clear * rounding).scene(sign);
       Watch watch(WallGrazes(scene, rounding));
       stepping::Exact<double, effect_sets::with_loose_mass(Damping::light, Forcing::secular)> exact(scene);
-      motion::State<double> state = point::start_of(scene);
+      motion::State<double> state = support::start_of(scene);
       ASSERT_EQ(run_for(exact, state, (Hover::late - Hover::begin) / exact.period(), watch),
                 stepping::Outcome::completed);
       EXPECT_EQ(watch.strikes.empty(), clear > 0) << clear;
@@ -81,7 +82,7 @@ TEST(WallGrazes, contacts_of_both_masses_within_rounding_of_one_instant_are_one)
       scene.stops.restitution_lower = scene.stops.restitution_upper = 0.5;
       Watch watch(WallGrazes(scene, rounding));
       stepping::Exact<double, effect_sets::with_everything(Damping::light, Forcing::secular)> exact(scene);
-      motion::State<double> state = point::start_of(scene);
+      motion::State<double> state = support::start_of(scene);
       ASSERT_EQ(run_for(exact, state, 1.1 / exact.period(), watch), stepping::Outcome::completed);
       EXPECT_FALSE(watch.strikes.empty());
       const double gap = late > 0 ? late : -late * std::cos(1.0) / w;

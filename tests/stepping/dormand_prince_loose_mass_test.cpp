@@ -102,21 +102,18 @@ TEST(DormandPrinceLooseMass, a_wall_lets_go_where_it_would_have_to_pull) {
 }
 
 TEST(DormandPrinceLooseMass, between_sections_depends_on_the_state_alone) {
-  for (const auto& of_kind : support::every_loose_kind())
-    with_general_effects(of_kind.scene, [&, name = of_kind.name, scene = of_kind.scene]<Effects effects>() {
-      DormandPrince<effects> first(scene, scene.integration);
-      motion::State<double> state = point::start_of(scene);
-      for (int period = 0; period < 6; ++period) {
-        DormandPrince<effects> other(scene, scene.integration);
-        motion::State<double> copy = state;
-        NoObserver nobody;
-        ASSERT_EQ(advance_to_section(first, state, 0, nobody), Outcome::completed) << name;
-        ASSERT_EQ(advance_to_section(other, copy, 0, nobody), Outcome::completed) << name;
-        EXPECT_EQ(state.x, copy.x) << name;
-        EXPECT_EQ(state.loose.place, copy.loose.place) << name;
-        EXPECT_EQ(state.loose.speed, copy.loose.speed) << name;
-      }
-    });
+  for (const auto& [name, scene] : support::every_loose_kind()) {
+    const auto first = support::general_method<DormandPrince>(scene);
+    motion::State<double> state = support::start_of(scene);
+    for (int period = 0; period < 6; ++period) {
+      motion::State<double> copy = state;
+      ASSERT_EQ(first->advance_to_section(state, 0), Outcome::completed) << name;
+      ASSERT_EQ(support::general_method<DormandPrince>(scene)->advance_to_section(copy, 0), Outcome::completed) << name;
+      EXPECT_EQ(state.x, copy.x) << name;
+      EXPECT_EQ(state.loose.place, copy.loose.place) << name;
+      EXPECT_EQ(state.loose.speed, copy.loose.speed) << name;
+    }
+  }
 }
 
 TEST(DormandPrinceLooseMass, mirrored_scenes_move_as_mirror_images) {

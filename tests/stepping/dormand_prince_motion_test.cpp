@@ -23,12 +23,7 @@ point::Problem with_tolerance(point::Problem scene, double tolerance) {
 }
 
 steady::ObservedTime settled(const point::Problem& scene) {
-  return with_general_effects(scene, [&]<Effects effects>() {
-    DormandPrince<effects> integrator(scene, scene.integration, limits_of(scene));
-    motion::State<double> state;
-    state.x = scene.start.displacement, state.v = scene.start.velocity;
-    return find_steady(integrator, state, scene, scene.time, scene.integration);
-  });
+  return support::general_method<DormandPrince>(scene)->find_steady(support::start_of(scene));
 }
 
 void expect_same_events(const std::vector<accuracy::Event>& a, const std::vector<accuracy::Event>& b, double sign,
@@ -93,23 +88,23 @@ TEST(DormandPrinceMotion, at_resonance_grows_as_its_closed_form) {
 
 TEST(DormandPrinceMotion, between_sections_depends_on_the_state_alone) {
   // a new integrator continues from a section as the one that reached it, to the last bit, though not within a period
-  for (const auto& [kind, of_kind] : every_kind())
-    with_general_effects(of_kind, [&, name = kind, scene = of_kind]<Effects effects>() {
-      DormandPrince<effects> first(scene, with_tolerance(scene, 1e-6).integration);
-      motion::State<double> state;
-      state.x = scene.start.displacement, state.v = scene.start.velocity;
-      for (int period = 0; period < 6; ++period) {
-        DormandPrince<effects> other(scene, with_tolerance(scene, 1e-6).integration);
-        motion::State<double> copy = state;
-        copy.periods = 0;
-        support::EventList events, others;
-        ASSERT_EQ(advance_to_section(first, state, state.periods, events), Outcome::completed) << name;
-        ASSERT_EQ(advance_to_section(other, copy, 0, others), Outcome::completed) << name;
-        EXPECT_EQ(state.x, copy.x) << name;
-        EXPECT_EQ(state.v, copy.v) << name;
-        expect_same_events(events.events, others.events, 1, 1);
-      }
-    });
+  for (const auto& [kind, of_kind] : every_kind()) {
+    const point::Problem scene = with_tolerance(of_kind, 1e-6);
+    const auto first = support::general_method<DormandPrince>(scene);
+    motion::State<double> state = support::start_of(scene);
+    for (int period = 0; period < 6; ++period) {
+      const auto other = support::general_method<DormandPrince>(scene);
+      motion::State<double> copy = state;
+      copy.periods = 0;
+      support::EventList events, others;
+      support::Seeing seeing(events), seeing_others(others);
+      ASSERT_EQ(first->advance_to_section(state, state.periods, &seeing), Outcome::completed) << kind;
+      ASSERT_EQ(other->advance_to_section(copy, 0, &seeing_others), Outcome::completed) << kind;
+      EXPECT_EQ(state.x, copy.x) << kind;
+      EXPECT_EQ(state.v, copy.v) << kind;
+      expect_same_events(events.events, others.events, 1, 1);
+    }
+  }
 }
 
 TEST(DormandPrinceMotion, mirrored_and_scaled_by_a_power_of_two_is_the_same_to_the_last_bit) {
@@ -185,17 +180,15 @@ TEST(DormandPrinceMotion, unforced_and_damped_comes_to_stand_still) {
 TEST(DormandPrinceMotion, a_step_that_ends_an_ulp_beyond_a_stop_ends_on_it) {
   // beside the stop by the rounding of position and anchor; a pressed inelastic mass rests there, and time advances
   point::Problem scene = support::scene_of({0.1, 0.0, 1.0, 2.0}, -1.0, 1.0, 0.0);
-  with_general_effects(scene, [&]<Effects effects>() {
-    DormandPrince<effects> integrator(scene, scene.integration, limits_of(scene));
-    motion::State<double> state;
-    state.x = std::nextafter(1.0, 2.0), state.v = 0.5;
-    support::EventList list;
-    ASSERT_EQ(integrator.advance(state, 1e-4, 0, list), Outcome::completed);
-    ASSERT_EQ(list.events.size(), 2u);
-    EXPECT_EQ(list.events[0].kind, accuracy::Event::Kind::impact);
-    EXPECT_EQ(list.events[1].kind, accuracy::Event::Kind::rest);
-    EXPECT_EQ(state.x, 1.0);
-  });
+  motion::State<double> state;
+  state.x = std::nextafter(1.0, 2.0), state.v = 0.5;
+  support::EventList list;
+  support::Seeing seeing(list);
+  ASSERT_EQ(support::general_method<DormandPrince>(scene)->advance(state, 1e-4, &seeing), Outcome::completed);
+  ASSERT_EQ(list.events.size(), 2u);
+  EXPECT_EQ(list.events[0].kind, accuracy::Event::Kind::impact);
+  EXPECT_EQ(list.events[1].kind, accuracy::Event::Kind::rest);
+  EXPECT_EQ(state.x, 1.0);
 }
 
 TEST(DormandPrinceMotion, more_impacts_than_allowed_is_an_outcome) {
@@ -228,14 +221,11 @@ TEST(DormandPrinceMotion, that_overflows_is_an_outcome_and_not_a_motion) {
 TEST(DormandPrinceMotion, too_short_steps_to_advance_time_are_unresolved) {
   const point::Problem scene =
       support::scene_of({1e18, 1.0, 0.8, 0.0}, -0.5, 0.5, 0.7);  // stable only in steps below 1e-18
-  with_general_effects(scene, [&]<Effects effects>() {
-    DormandPrince<effects> integrator(scene, scene.integration, limits_of(scene));
-    motion::State<double> state;
-    state.phase_turns = 0.5, state.v = 0.1;
-    NoObserver nobody;
-    EXPECT_EQ(integrator.advance(state, 1.0, 0, nobody), Outcome::unresolved);
-    EXPECT_LT(integrator.evaluations(), 1000);
-  });
+  const auto method = support::general_method<DormandPrince>(scene);
+  motion::State<double> state;
+  state.phase_turns = 0.5, state.v = 0.1;
+  EXPECT_EQ(method->advance(state, 1.0), Outcome::unresolved);
+  EXPECT_LT(method->evaluations(), 1000);
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
+#include "point/exact_motion.hpp"
 #include "support/runs.hpp"
 
 namespace clatter::stepping::exact_test {
@@ -109,18 +112,26 @@ TEST(Exact, scenes_scaled_by_a_power_of_two_move_alike_to_the_last_bit) {
     }
 }
 
+/// The events of twenty periods that begin so many periods after the first one, and the displacement at their end.
+std::pair<support::Recorder, double> twenty_periods(const point::Problem& scene, std::int64_t later) {
+  const auto motion = point::ExactMotion::of(scene);
+  point::MotionRecorder recorder(motion->stops());
+  recorder.keep_events();
+  motion::State<double> state = motion->start();
+  state.periods = later;
+  EXPECT_EQ(motion->run_for(state, 20.0, recorder), Outcome::completed);
+  support::Recorder record;
+  for (const motion::Event& event : recorder.events) record.event(event);
+  return {record, state.x};
+}
+
 TEST(Exact, a_start_whole_periods_later_moves_alike_to_the_last_bit) {
-  for (const point::Problem& scene : scenes_for_symmetry())
-    with_any_stops(scene.oscillator, [&]<Effects effects>() {
-      Exact<double, effects> integrator(scene, limits_of(scene));
-      support::Recorder a, b;
-      motion::State<double> now{scene.start.displacement, scene.start.velocity, 0.0, 0}, later = now;
-      later.periods = 1'000'000'007;
-      EXPECT_EQ(run_for(integrator, now, 20.0, a), Outcome::completed);
-      EXPECT_EQ(run_for(integrator, later, 20.0, b), Outcome::completed);
-      expect_same_bits(a, b, 1, 1);
-      EXPECT_EQ(now.x, later.x);
-    });
+  for (const point::Problem& scene : scenes_for_symmetry()) {
+    const auto [now, x] = twenty_periods(scene, 0);
+    const auto [later, x_later] = twenty_periods(scene, 1'000'000'007);
+    expect_same_bits(now, later, 1, 1);
+    EXPECT_EQ(x, x_later);
+  }
 }
 
 TEST(Exact, keeps_the_forcing_phase_over_a_hundred_thousand_periods) {
@@ -128,14 +139,12 @@ TEST(Exact, keeps_the_forcing_phase_over_a_hundred_thousand_periods) {
   const double amplitude = 0.777909841584413976;
   point::Problem scene = support::scene_of({0.1, 1.0, 1.5, 0.0}, -2 * amplitude, 2 * amplitude, 0.7);
   scene.start = {-0.181543116490166415, -1.13464447806354009, 0.0};
-  with_any_stops(scene.oscillator, [&]<Effects effects>() {
-    Exact<double, effects> integrator(scene, limits_of(scene));
-    motion::State<double> state{scene.start.displacement, scene.start.velocity};
-    NoObserver nobody;
-    ASSERT_EQ(run_for(integrator, state, 1e5, nobody), Outcome::completed);
-    EXPECT_NEAR(state.x, scene.start.displacement, 1e-15);
-    EXPECT_NEAR(state.v, scene.start.velocity, 1e-15);
-  });
+  const auto motion = point::ExactMotion::of(scene);
+  point::MotionRecorder recorder(motion->stops());
+  motion::State<double> state = motion->start();
+  ASSERT_EQ(motion->run_for(state, 1e5, recorder), Outcome::completed);
+  EXPECT_NEAR(state.x, scene.start.displacement, 1e-15);
+  EXPECT_NEAR(state.v, scene.start.velocity, 1e-15);
 }
 
 TEST(Exact, starts_on_a_stop_are_handled_each_way) {

@@ -160,12 +160,7 @@ TEST(MoreauMotion, work_is_a_step_however_many_impacts_it_meets) {
 }
 
 steady::ObservedTime settled(const point::Problem& scene) {
-  return with_general_effects(scene, [&]<Effects effects>() {
-    Moreau<effects> integrator(scene, scene.integration, limits_of(scene));
-    motion::State<double> state;
-    state.x = scene.start.displacement, state.v = scene.start.velocity;
-    return find_steady(integrator, state, scene, scene.time, scene.integration);
-  });
+  return support::general_method<Moreau>(scene)->find_steady(support::start_of(scene));
 }
 
 TEST(MoreauMotion, is_found_to_repeat_or_not) {
@@ -186,20 +181,18 @@ TEST(MoreauMotion, between_sections_depends_on_the_state_alone) {
       support::scene_of({0.01, 50.0, 0.7, 0.0}, -70.0, 90.0, 0.8);  // so strong that a rounding of its phase shows
   strong.start.phase = 1.0;
   for (const point::Problem& scene : {chattering, strong})
-    for (const double step : {0.013, 1e-3})
-      with_general_effects(scene, [&]<Effects effects>() {
-        Moreau<effects> first(scene, with_step(scene, step).integration);
-        motion::State<double> state;
-        for (int period = 0; period < 20; ++period) {
-          Moreau<effects> other(scene, with_step(scene, step).integration);
-          motion::State<double> copy = state;
-          NoObserver nobody;
-          ASSERT_EQ(advance_to_section(first, state, 0, nobody), Outcome::completed);
-          ASSERT_EQ(advance_to_section(other, copy, 0, nobody), Outcome::completed);
-          EXPECT_EQ(state.x, copy.x);
-          EXPECT_EQ(state.v, copy.v);
-        }
-      });
+    for (const double step : {0.013, 1e-3}) {
+      const point::Problem stepped = with_step(scene, step);
+      const auto first = support::general_method<Moreau>(stepped);
+      motion::State<double> state;
+      for (int period = 0; period < 20; ++period) {
+        motion::State<double> copy = state;
+        ASSERT_EQ(first->advance_to_section(state, 0), Outcome::completed);
+        ASSERT_EQ(support::general_method<Moreau>(stepped)->advance_to_section(copy, 0), Outcome::completed);
+        EXPECT_EQ(state.x, copy.x);
+        EXPECT_EQ(state.v, copy.v);
+      }
+    }
 }
 
 TEST(MoreauMotion, mirrored_and_scaled_by_a_power_of_two_is_the_same_to_the_last_bit) {

@@ -9,10 +9,7 @@
 #include "math/number.hpp"
 #include "motion/walls.hpp"
 #include "point/point.hpp"
-#include "point/point_run.hpp"
-#include "scene/required_effects.hpp"
-#include "stepping/exact.hpp"
-#include "stepping/run.hpp"
+#include "stepping/integration.hpp"
 #include "support/random.hpp"
 
 namespace clatter::support {
@@ -97,19 +94,7 @@ struct LooseRun {
   double z = 0.0, w = 0.0;  ///< at the end
   stepping::Outcome outcome = stepping::Outcome::unresolved;
 };
-[[nodiscard]] inline LooseRun run_loose(const point::Problem& scene, double duration) {
-  const auto by = [&]<Effects E>() {
-    stepping::Exact<double, E> exact(scene, stepping::Limits{.impacts = 1e9});
-    LooseRun run{.end = point::start_of(scene)};
-    run.outcome = run_for(exact, run.end, duration / exact.period(), run.record);
-    const auto [z, w] = motion::place_in_housing(run.end, scene.loose);
-    run.z = z, run.w = w;
-    return run;
-  };
-  if (rotates(scene.oscillator))
-    return by.template operator()<effect_sets::with_loose_mass(Damping::light, Forcing::secular)>();
-  return by.template operator()<effect_sets::with_loose_mass(Damping::heavy, Forcing::regular)>();
-}
+[[nodiscard]] LooseRun run_loose(const point::Problem& scene, double duration);
 
 /// The steady motion of a scene, with all that is observed of a loose mass.
 [[nodiscard]] inline point::PointResult observed(point::Problem scene) {

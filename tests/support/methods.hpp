@@ -2,50 +2,69 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "accuracy/run_record.hpp"
 #include "motion/walls.hpp"
+#include "point/problem.hpp"
 #include "scene/effects.hpp"
-#include "stepping/run.hpp"
+#include "steady/observed_time.hpp"
+#include "stepping/integration.hpp"
+#include "support/seen_arc.hpp"
 
 namespace clatter::support {
+
+/// A general method on a scene, with all effects that this can have.
+class GeneralMethod {
+ public:
+  virtual ~GeneralMethod() = default;
+  [[nodiscard]] virtual double period() const = 0;
+  [[nodiscard]] virtual double impacts() const = 0;
+  [[nodiscard]] virtual double evaluations() const = 0;
+  /// As the functions of these names in `steady` and `stepping`; without an observer nobody looks on.
+  [[nodiscard]] virtual stepping::Outcome advance(motion::State<double>& state, double end,
+                                                  AnyObserver* observer = nullptr) = 0;
+  [[nodiscard]] virtual stepping::Outcome advance_to_section(motion::State<double>& state, std::int64_t origin,
+                                                             AnyObserver* observer = nullptr) = 0;
+  [[nodiscard]] virtual stepping::Outcome run_for(motion::State<double>& state, double turns,
+                                                  AnyObserver* observer = nullptr) = 0;
+  [[nodiscard]] virtual steady::ObservedTime find_steady(motion::State<double> start) = 0;
+};
+
+[[nodiscard]] motion::State<double> start_of(const Scene& scene);
+
+/// `Method`: stepping::DormandPrince or stepping::Moreau.
+template <template <Effects> class Method>
+[[nodiscard]] std::unique_ptr<GeneralMethod> general_method(const point::Problem& scene);
 
 /// Runs a scene from its start for a time in tau by a general method, DormandPrince or Moreau, reporting to an
 /// observer; returns the final state and the work.
 template <template <Effects> class Method, class Observer>
 accuracy::RunRecord run_by(const point::Problem& scene, double duration, Observer& observer) {
-  return with_general_effects(scene, [&]<Effects effects>() {
-    Method<effects> integrator(scene, scene.integration, limits_of(scene));
-    motion::State<double> state;
-    state.x = scene.start.displacement, state.v = scene.start.velocity;
-    if (has_loose_mass(scene.loose)) state.loose = motion::loose_start<double>(scene);
-    accuracy::RunRecord record;
-    record.duration = duration;
-    record.outcome = run_for(integrator, state, duration / integrator.period(), observer);
-    record.x = state.x, record.v = state.v;
-    if (has_loose_mass(scene.loose)) {
-      const auto [z, w] = motion::place_in_housing(state, scene.loose);
-      record.z = z, record.w = w;
-    }
-    record.impacts = integrator.impacts(), record.evaluations = integrator.evaluations();
-    return record;
-  });
+  const auto method = general_method<Method>(scene);
+  Seeing<Observer> seeing(observer);
+  motion::State<double> state = start_of(scene);
+  accuracy::RunRecord record;
+  record.duration = duration;
+  record.outcome = method->run_for(state, duration / method->period(), &seeing);
+  record.x = state.x, record.v = state.v;
+  if (has_loose_mass(scene.loose)) {
+    const auto [z, w] = motion::place_in_housing(state, scene.loose);
+    record.z = z, record.w = w;
+  }
+  record.impacts = method->impacts(), record.evaluations = method->evaluations();
+  return record;
 }
 
 /// Records the events of a run.
 struct EventList {
   std::vector<accuracy::Event> events{};
 
-  template <class A>
-  void arc(const A&, double, double) {}
+  void arc(const SeenArc&, double, double) {}
   void event(const motion::Event& event) {
-    using Kind = motion::Event::Kind;
-    const motion::Event seen = event.in_housing();
-    if (seen.kind == Kind::touch || seen.kind == Kind::renewal)
-      events.push_back(accuracy::as_impact(seen));
-    else if (seen.kind != Kind::separation && seen.kind != Kind::press)
-      events.push_back(seen);
+    if (event.kind != motion::Event::Kind::press) events.push_back(event.in_housing());
   }
 };
 
@@ -54,7 +73,8 @@ template <template <Effects> class Method>
 accuracy::RunRecord record_by(const point::Problem& scene, double duration) {
   EventList list;
   accuracy::RunRecord record = run_by<Method>(scene, duration, list);
-  record.events = has_loose_mass(scene.loose) ? accuracy::with_slow_impacts_summed(list.events) : list.events;
+  record.events = accuracy::as_compared(list.events);
+  if (has_loose_mass(scene.loose)) record.events = accuracy::with_slow_impacts_summed(record.events);
   return record;
 }
 

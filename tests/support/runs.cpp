@@ -1,8 +1,8 @@
 #include "support/runs.hpp"
 
 #include "math/fifty_digits.hpp"
-#include "point/every_effect.hpp"
 #include "point/exact_motion.hpp"
+#include "point/reference_motion.hpp"
 
 namespace clatter::support {
 
@@ -24,14 +24,14 @@ Run<double> run_in(const point::Problem& scene, double x, double v, TurnsOf&& tu
 }
 template <class TurnsOf>
 Run<FiftyDigits> run_in(const point::Problem& scene, const FiftyDigits& x, const FiftyDigits& v, TurnsOf&& turns_of) {
-  return point::with_every_effect(scene, [&]<Effects effects>() {
-    Run<FiftyDigits> run;
-    stepping::Exact<FiftyDigits, effects> integrator(scene, limits_of(scene));
-    run.end.x = x, run.end.v = v;
-    run.outcome = run_for(integrator, run.end, turns_of(integrator.period()), run.record);
-    run.evaluations = integrator.evaluations();
-    return run;
-  });
+  const auto motion = point::ReferenceMotion::of(scene);
+  point::ReferenceRecorder recorder;
+  Run<FiftyDigits> run;
+  run.end.x = x, run.end.v = v;
+  run.outcome = motion->run_for(run.end, turns_of(motion->period()), recorder);
+  run.evaluations = motion->evaluations();
+  for (const motion::Event& event : recorder.events) run.record.event(event);
+  return run;
 }
 
 }  // namespace
