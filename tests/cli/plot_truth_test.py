@@ -77,7 +77,7 @@ class Speeds(ScenePictures):
         fastest = np.fmax(*speeds.T)
         self.assertTrue((fastest > 1.001 * first).any())  # the first impact isn't always the fastest
         files = [str(self.folder / f"{name}.h5") for name in ("branch", "speeds")]
-        figure = pictures.branches_together(choice(files=files, only=("impact_speed",), backbone=False))
+        figure = pictures.shared_figure(choice(files=files, only=("impact_speed",), backbone=False))
         (points,) = [line for line in figure.axes[0].lines if line.get_gid() == "sweep"]
         np.testing.assert_array_equal(points.get_ydata(), fastest)
         self.assertNotIn("impact_speed", self.caption(figure))

@@ -33,21 +33,17 @@ def pictures(options):
 
 def shared_figure(options):
     """The picture of all files together, or of a single one; None if each has its own."""
-    if any(is_branch(path) for path in options.files):
-        return branches_together(options)
     if len(options.files) == 1:
-        return single_figure(Output(options.files[0]), options)
+        output = Output(options.files[0])
+        return branches_together([output], options) if output.is_branch else single_figure(output, options)
+    if any(Output(path).is_branch for path in options.files):
+        return branches_together([Output(path) for path in options.files], options)
     members = shared_members(options)
     return figure_of(members, options) if members else None
 
 
-def is_branch(path):
-    return Output(path).is_branch
-
-
-def branches_together(options):
+def branches_together(outputs, options):
     """All branches, or curves, of the files in one picture, with the results of sweeps behind them."""
-    outputs = [Output(path) for path in options.files]
     branches = [output for output in outputs if output.is_branch]
     if options.scatter:
         raise ChoiceProblem("--scatter: branches are curves; a sweep has points that can be scattered")

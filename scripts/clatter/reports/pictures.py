@@ -19,7 +19,7 @@ def picture(output, points):
     """The picture as SVG, its panels, and what it shows in words."""
     choices = options.choices([output.path])
     if output.is_branch:
-        figure = pictures.branches_together(choices)
+        figure = pictures.branches_together([output], choices)
         panels = branch_panels(figure, output)
     elif output.is_accuracy:
         figure = pictures.single_figure(output, choices)
