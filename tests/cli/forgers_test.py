@@ -23,7 +23,7 @@ from forger_judge import Judge, Truth, Unreliable
 from forger_motion import Flow, Motion
 from random_scenes import compliant_scenes, pressing_scenes, random_scenes, rubbed_scenes
 
-FORGED, SEED = int(os.environ.get("CLATTER_FORGED", "1500")), int(os.environ.get("CLATTER_SEED", "1"))
+FORGED, SEED = int(os.environ.get("CLATTER_FORGED", "700")), int(os.environ.get("CLATTER_SEED", "1"))
 FROM_ONE = 40  # forgeries of a certificate
 MOST_EVENTS = 60  # of a certificate that is edited
 

@@ -19,7 +19,7 @@ from forger_judge import Judge, Truth, Unreliable
 from forgers_test import Forgers
 from laws_of_speed import LAWS, kinks, law_of, share
 
-FORGED, SEED = int(os.environ.get("CLATTER_FORGED", "600")), int(os.environ.get("CLATTER_SEED", "1"))
+FORGED, SEED = int(os.environ.get("CLATTER_FORGED", "300")), int(os.environ.get("CLATTER_SEED", "1"))
 ERROR = 1e-15
 
 

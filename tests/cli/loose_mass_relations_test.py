@@ -56,7 +56,7 @@ def pushed_as_by_base(scene, b):
     return {**scene, **pushed, **start}
 
 
-def in_scenes(count=8):
+def in_scenes(count=5):
     """Makes a test of a relation that holds for each of so many random scenes."""
 
     def decorate(test):

@@ -39,7 +39,7 @@ TO_AND_FRO = "[scene]\nf = 0.0\nh = 0.0\nR = 1.0\nxs = 0.1\n"
 LOGGED = '[time]\nmode = "transient"\nduration = {}\n'
 
 SHAPES = {
-    "one long axis": (sweep({"nu": linspace(10**7)}), ()),
+    "one long axis": (sweep({"nu": linspace(8 * 10**6)}), ()),
     "many axes": (
         sweep({"nu": linspace(100), "h": linspace(20, 0.1, 0.3), "f": linspace(20), "phase": linspace(25)}),
         (),
@@ -59,24 +59,24 @@ SHAPES = {
         (),
     ),
     "log in files": (
-        sweep({"v0": linspace(1500, 1, 2)}, TO_AND_FRO, time=LOGGED.format(1000.0), observe="impact_log = true"),
+        sweep({"v0": linspace(1100, 1, 2)}, TO_AND_FRO, time=LOGGED.format(1000.0), observe="impact_log = true"),
         (),
     ),
     "compression": (
         sweep(
-            {"nu": linspace(10**6)},
+            {"nu": linspace(4 * 10**5)},
             observe="extrema = true\nperiod = true\nimpacts = true\n[output]\ncompression = 1",
         ),
         (),
     ),
     "linked axes": (
         sweep(
-            {"nu": linspace(2000000), "h": linspace(2000000, 0.1, 0.3), "f": linspace(2000000)},
+            {"nu": linspace(10**6), "h": linspace(10**6, 0.1, 0.3), "f": linspace(10**6)},
             more='linked = "nu, h, f"',
         ),
         (),
     ),
-    "a shard": (sweep({"nu": linspace(3000000)}), ("--shard", "0/3")),
+    "a shard": (sweep({"nu": linspace(2 * 10**6)}), ("--shard", "0/3")),
     "attractors of many starts": (
         sweep({"x0": linspace(1000), "v0": linspace(1000)}, time="", observe="attractor = true"),
         (),

@@ -7,7 +7,7 @@ from unittest import mock
 
 import numpy as np
 
-from report_runs import ReportRuns, command_at, data_of, in_shell, results_at
+from report_runs import NO_PICTURE, ReportRuns, command_at, data_of, in_shell, results_at
 from script_runs import run_script
 
 DRIVE = {"mass": 0.5, "stiffness": 12800, "damping": 16, "force": 12.8, "frequency": 25, "R": 0.7, "gap": 4e-3}
@@ -25,10 +25,6 @@ def toml(**sections):
             if name not in ("scene", "machine") or key not in sections.get("sweep", {}):
                 lines.append(f"{key} = {json.dumps(value)}".replace("Infinity", "inf"))
     return "\n".join(lines) + "\n"
-
-
-# In place of the picture of a page, whose commands alone matter here: to draw one takes longer than all else.
-NO_PICTURE = ("<svg/>", [], "nothing")
 
 
 class Commands(ReportRuns):

@@ -18,6 +18,8 @@ from script_runs import run_script
 
 OF_WHOLE_SWEEPS = ("attractor",)  # results that number what all points have in common
 OF_BRANCHES = ("x_min", "x_max", "v_min", "v_max", "impact_speed")  # that a run of one period has, too
+# In place of the picture of a page, where its commands alone matter: to draw one takes longer than all else.
+NO_PICTURE = ("<svg/>", [], "nothing")
 
 
 class ReportRuns(CommandLine):

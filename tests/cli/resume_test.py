@@ -26,7 +26,7 @@ class Resume(StoppedRuns):
     def test_killed_at_random_moments_it_loses_nothing_that_was_saved(self):
         """CLATTER_KILLS: how many (scripts/long_checks.sh kills)."""
         self.sweep(nu=200, xs=50)
-        self.killed(self.undisturbed(), kills=int(os.environ.get("CLATTER_KILLS", "30")), seed=8)
+        self.killed(self.undisturbed(), kills=int(os.environ.get("CLATTER_KILLS", "15")), seed=8)
 
     def test_points_are_saved_about_once_a_second_while_it_runs(self):
         for nu in (400, 1600, 6400):  # more points, if the machine is done with those before they are seen

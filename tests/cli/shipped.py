@@ -4,6 +4,7 @@ from command_line import SOURCE
 
 COARSER = {  # settings of the shipped configurations that take long
     "basins": ("sweep.x0=linspace(-3, 3, 13)", "sweep.v0=linspace(-6, 6, 11)"),
+    "ceiling": ("sweep.stop_upper=linspace(5 mm, 30 mm, 41)",),
     "energy_sink_basin": ("sweep.loose_x0=linspace(-1, 1, 11)", "sweep.loose_v0=linspace(-1, 1, 11)"),
     "map_nu_xs": ("sweep.nu=linspace(0.5, 1.5, 31)", "sweep.xs=linspace(2, 12, 21)"),
     "optimal_zones": ("sweep.nu=linspace(1, 13, 13)", "sweep.x0=sobol(-0.5, 0.5, 32)", "sweep.v0=sobol(-5, 5, 32)"),

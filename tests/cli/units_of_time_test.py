@@ -21,7 +21,7 @@ from scene_runs import Program, numbers
 from starts_on_contacts import bouncing
 
 CLATTER = os.environ["CLATTER"]
-COUNT, SEED = of_seed(os.environ.get("CLATTER_COINCIDENCES"), 60, 640)
+COUNT, SEED = of_seed(os.environ.get("CLATTER_COINCIDENCES"), 30, 640)
 
 # h, nu, x0, v0, upper stop, R below and above; the multipliers of the motion without a spring, but for rounding.
 BETWEEN_STOPS = [
