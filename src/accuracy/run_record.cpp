@@ -117,7 +117,7 @@ RunRecord reference_from(const point::Problem& scene, point::ReferenceMotion& mo
   return record;
 }
 
-/// A scene as double computes it, which has rounded its numbers before a method, which is judged, begins.
+/// A scene by the numbers that double computes with, rounded as they are: those that the judged methods begin with.
 point::Problem as_computed(point::Problem scene) {
   scene.given.reset();
   return scene;

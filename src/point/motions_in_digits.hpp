@@ -131,7 +131,7 @@ std::optional<ReleasedMotion> run_until_released(const Problem& problem, Side si
   return returns ? std::optional(std::move(motion)) : std::nullopt;
 }
 
-/// What a number of periods does to a state.
+/// Some periods from a state on: where they end, and the derivative of that by the state.
 template <class Number>
 struct Round {
   motion::State<Number> end{};

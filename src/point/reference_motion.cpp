@@ -65,6 +65,10 @@ class WithEffects : public ReferenceMotion {
     Recording<E> recording(in_double_, recorder);
     return integrator_.advance(state, end, 0, recording);
   }
+  [[nodiscard]] stepping::Outcome advance_to_section(State& state, ReferenceRecorder& recorder) override {
+    Recording<E> recording(in_double_, recorder);
+    return stepping::advance_to_section(integrator_, state, 0, recording);
+  }
 
  private:
   Scene scene_;
@@ -78,13 +82,6 @@ std::unique_ptr<ReferenceMotion> ReferenceMotion::of(const Problem& problem) {
   return with_every_effect_but_own_motion(problem, [&]<Effects E>() -> std::unique_ptr<ReferenceMotion> {
     return std::make_unique<WithEffects<E>>(problem);
   });
-}
-
-stepping::Outcome ReferenceMotion::advance_to_section(State& state, ReferenceRecorder& recorder) {
-  const stepping::Outcome outcome = advance(state, FiftyDigits(1), recorder);
-  state.phase_turns = 0;
-  ++state.periods;
-  return outcome;
 }
 
 stepping::Outcome ReferenceMotion::run_for(State& state, const FiftyDigits& turns, ReferenceRecorder& recorder,

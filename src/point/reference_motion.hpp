@@ -16,9 +16,9 @@
 
 namespace clatter::point {
 
-/// What is kept of a run in 50 digits: its events; its derivative, and its extrema and harmonics, if they are asked
-/// for. These are taken from its arcs, each rounded to double at its start: an error of a few roundings, which doesn't
-/// grow.
+/// Keeps the events of a run in 50 digits, and, if they are asked for, its derivative, its extrema and its harmonics.
+/// The last two are taken from its arcs, each rounded to double at its start: an error of a few roundings, which
+/// doesn't grow.
 struct ReferenceRecorder {
   std::vector<motion::Event> events{};                       ///< as `MotionRecorder` keeps them
   std::optional<motion::TangentMap<FiftyDigits>> tangent{};  ///< without a loose mass
@@ -44,7 +44,8 @@ class ReferenceMotion {
   /// Up to a phase in turns since the section; as the function of this name of the integrator.
   [[nodiscard]] virtual stepping::Outcome advance(State& state, const FiftyDigits& end,
                                                   ReferenceRecorder& recorder) = 0;
-  [[nodiscard]] stepping::Outcome advance_to_section(State& state, ReferenceRecorder& recorder);
+  /// To the next section.
+  [[nodiscard]] virtual stepping::Outcome advance_to_section(State& state, ReferenceRecorder& recorder) = 0;
   /// For a time in forcing periods from a section on; `unresolved` if `stopped`, which is called at each, ends it.
   [[nodiscard]] stepping::Outcome run_for(State& state, const FiftyDigits& turns, ReferenceRecorder& recorder,
                                           const std::function<bool()>& stopped = {});

@@ -23,7 +23,7 @@ SOME_STARTS = {
     "basins": ("x0=linspace(-3, 3, 81)", "v0=linspace(-6, 6, 81)"),
     "zones": ("nu=linspace(0.5, 1.5, 41)", "x0=sobol(-3, 3, 64)", "v0=sobol(-6, 6, 64)"),
 }
-NEVER_IN_LANES = r"loose_|friction|force_shape|force_table|stop_amplitude_|R_of_speed|R_exponent|sensitivity|\[branch\]"
+NEVER_IN_LANES = r"loose_|force_shape|force_table|stop_amplitude_|R_of_speed|R_exponent|\[branch\]"
 ALL_STARTS = "CLATTER_ALL_STARTS" in os.environ  # by scripts/long_checks.sh
 
 

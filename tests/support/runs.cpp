@@ -8,30 +8,29 @@ namespace clatter::support {
 
 namespace {
 
-/// The integrator that the program is compiled with, in double, for a time that `turns_of` gives from the length of a
-/// forcing period.
+/// A run of a motion for a time that `turns_of` gives from the length of a forcing period.
+template <class Number, class Motion, class Recorder, class TurnsOf>
+Run<Number> run_of(Motion& motion, Recorder& recorder, const Number& x, const Number& v, TurnsOf&& turns_of) {
+  Run<Number> run;
+  run.end.x = x, run.end.v = v;
+  run.outcome = motion.run_for(run.end, turns_of(motion.period()), recorder);
+  run.evaluations = motion.evaluations();
+  for (const motion::Event& event : recorder.events) run.record.event(event);
+  return run;
+}
+/// By the integrator that the program is compiled with, in double.
 template <class TurnsOf>
 Run<double> run_in(const point::Problem& scene, double x, double v, TurnsOf&& turns_of) {
   const auto motion = point::ExactMotion::of(scene);
   point::MotionRecorder recorder(motion->stops());
   recorder.keep_events();
-  Run<double> run;
-  run.end.x = x, run.end.v = v;
-  run.outcome = motion->run_for(run.end, turns_of(motion->period()), recorder);
-  run.evaluations = motion->evaluations();
-  for (const motion::Event& event : recorder.events) run.record.event(event);
-  return run;
+  return run_of(*motion, recorder, x, v, turns_of);
 }
 template <class TurnsOf>
 Run<FiftyDigits> run_in(const point::Problem& scene, const FiftyDigits& x, const FiftyDigits& v, TurnsOf&& turns_of) {
   const auto motion = point::ReferenceMotion::of(scene);
   point::ReferenceRecorder recorder;
-  Run<FiftyDigits> run;
-  run.end.x = x, run.end.v = v;
-  run.outcome = motion->run_for(run.end, turns_of(motion->period()), recorder);
-  run.evaluations = motion->evaluations();
-  for (const motion::Event& event : recorder.events) run.record.event(event);
-  return run;
+  return run_of(*motion, recorder, x, v, turns_of);
 }
 
 }  // namespace

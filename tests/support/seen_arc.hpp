@@ -1,5 +1,8 @@
 #pragma once
 
+#include <type_traits>
+#include <utility>
+
 #include "motion/arc_constants.hpp"
 #include "motion/event.hpp"
 #include "motion/housed_arc.hpp"
