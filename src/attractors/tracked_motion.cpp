@@ -29,6 +29,10 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
   o.frequency = mix(a.frequency, b.frequency), o.load = mix(a.load, b.load);
   o.stiffness = mix(a.stiffness, b.stiffness);
   o.shape = {b.shape.waveform, mix(a.shape.duty, b.shape.duty), mix(a.shape.rise, b.shape.rise), b.shape.table};
+  for (std::size_t i = 0; i < o.shape.orders.of.size(); ++i) {
+    const auto &one = a.shape.orders.of[i], &other = b.shape.orders.of[i];
+    o.shape.orders.of[i] = {mix(one.in_phase, other.in_phase), mix(one.quadrature, other.quadrature)};
+  }
   problem.friction = {mix(from.friction.kinetic, to.friction.kinetic),
                       mix(from.friction.static_level, to.friction.static_level)};
   problem.stops = {mix(from.stops.lower, to.stops.lower),

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "config/consistency.hpp"
+#include "config/force_shape.hpp"
 #include "config/force_table.hpp"
 #include "config/restitution.hpp"
 #include "config/suggestion.hpp"
@@ -46,6 +47,12 @@ void check_machine(const Settings& settings) {
         given != nullptr && settings.given("frequency") == nullptr)
       fail(given->key_location,
            in_quotes(given->key->name) + " without 'frequency'; add it to [machine] in Hz, or as e.g. \"25 Hz\"");
+  for (const Parameter order : all_parameters)
+    if (const Setting* const given = is_order_amplitude(order) ? not_zero(settings, order) : nullptr;
+        given != nullptr && settings.given("frequency") == nullptr)
+      fail(given->key_location, in_quotes(given->key->name) +
+                                    " without 'frequency', of which it has a multiple; add it "
+                                    "to [machine] in Hz, or as e.g. \"25 Hz\"");
   if (const Setting* const table = settings.find("machine", "force_table");
       table != nullptr && settings.given("frequency") == nullptr)
     fail(table->key_location,
@@ -72,6 +79,8 @@ void check_start_period(const Settings& settings) {
     }
   };
   for (const Parameter parameter : std::array<Parameter, 3>{"h", "f", "load"}) demand(parameter, 0);
+  for (const Parameter parameter : all_parameters)
+    if (is_order_amplitude(parameter)) demand(parameter, 0);
   demand("stiffness", 1);
   for (const Parameter parameter : std::array<Parameter, 3>{"R", "R_lower", "R_upper"}) demand(parameter, 1);
   for (const Parameter parameter : std::array<Parameter, 3>{"R_below", "R_below_lower", "R_below_upper"})

@@ -266,7 +266,7 @@ Config config_of(ParsedConfig parsed) {
   config.title = settings.text("", "title"), config.source = settings.text("", "source");
   config.text = config_text(settings);
   if (config.text.size() > max_config_bytes + bytes_of_force_table(settings)) refuse_long(settings);
-  config.comment = stretch_of_force(settings);
+  config.comment = told_of_force_table(settings);
   if (!config.comment.empty()) config.notes.push_back(config.comment);
   for (const Replaced& replaced : settings.replaced)
     if (!replaced.is_surplus) config.notes.push_back(to_string(replaced));

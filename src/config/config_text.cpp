@@ -69,13 +69,13 @@ bool is_law_of_speed(const Key& key) {
   return parameter && parameter->role() == Role::law_of_speed;
 }
 
-/// Whether a key is of a force in pieces, or of the motion of one stop by itself: of neither are there defaults in the
-/// text, as most scenes have none.
+/// Whether a key is of a force that is no sine, or of the motion of one stop by itself: of neither are there defaults
+/// in the text, as most scenes have none.
 bool is_of_few(const Key& key) {
-  if (key.name == "force_shape" || key.name == "force_table") return true;
+  if (key.name == "force_shape" || key.name.starts_with("force_table")) return true;
   const auto parameter = describes_scene(key.section) ? Parameter::of(key.name) : std::nullopt;
   const Role role = parameter ? parameter->role() : Role::other;
-  return role == Role::force_shape || role == Role::stop_motion;
+  return role == Role::force_shape || role == Role::force_order || role == Role::stop_motion;
 }
 
 /// Whether the default of a key belongs in the text: not if its alternative was given.

@@ -41,4 +41,20 @@ Key force_table_key(bool is_si) {
   return key;
 }
 
+Key force_table_harmonics_key(bool is_si) {
+  Key key{
+      is_si ? "machine" : "scene",
+      "force_table_harmonics",
+      Kind::integer,
+      "0",
+      "3",
+      "take the mean and so many orders of the force of force_table, by the integrals of its straight lines, in place "
+      "of the lines; 0: the lines",
+      AllowedRange{.low = 0, .high = 8}};
+  key.beside = is_si ? "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nfrequency = 25.0\n"
+                       "force_table = \"period, force (N); 0, 40; 0.5, -40; 1, 40\"\n"
+                     : "force_table = \"period, f; 0, 1; 0.5, -1; 1, 1\"\n";
+  return key;
+}
+
 }  // namespace clatter::config

@@ -9,28 +9,66 @@
 
 namespace clatter::config {
 
+namespace {
+
+/// An amplitude of an order of the force that is given, or nullptr.
+const Setting* given_order(const Settings& settings) {
+  for (const Parameter parameter : all_parameters)
+    if (is_order_amplitude(parameter))
+      if (const Setting* const given = settings.given(parameter)) return given;
+  return nullptr;
+}
+
+/// Throws ConfigError if there are orders beside a force that has its own course.
+void check_orders(const Settings& settings, const std::string& shape) {
+  if (const Setting* const order = given_order(settings))
+    fail(order->key_location,
+         in_quotes(order->key->name) + " beside " + shape + ", which has all its orders; leave one of them out");
+}
+
+}  // namespace
+
 Waveform waveform_of(const Settings& settings) {
-  if (has_force_table(settings)) return Waveform::table;
+  if (has_force_table(settings)) return harmonics_of_table(settings) > 0 ? Waveform::orders : Waveform::table;
   const auto chosen = std::ranges::find(force_shapes, settings.text(settings.scene_section, "force_shape"));
-  return static_cast<Waveform>(chosen - force_shapes.begin());
+  const auto waveform = static_cast<Waveform>(chosen - force_shapes.begin());
+  return waveform == Waveform::sine && given_order(settings) != nullptr ? Waveform::orders : waveform;
+}
+
+std::string_view key_of_shape(const Settings& settings) {
+  if (has_force_table(settings)) return "force_table";
+  return waveform_of(settings) == Waveform::orders ? std::string_view(given_order(settings)->key->name) : "force_shape";
+}
+
+Parameter amplitude_of_order(Parameter order, bool is_si) {
+  const char number = order.key().back();
+  return *Parameter::of((is_si ? "force_" : "f_") + std::string(1, number), is_si ? Quantity::force : Quantity::number);
 }
 
 void set_force_shape(const Settings& settings, GivenScene& scene) {
   Oscillator& oscillator = scene.oscillator;
   oscillator.shape.waveform = waveform_of(settings);
-  if (const std::optional<MeasuredForce>& force = settings.measured_force) {
-    oscillator.shape.table = kept(force->table);
-    oscillator.forcing = oscillator.shape.table->peak();
+  const std::optional<MeasuredForce>& force = settings.measured_force;
+  if (!force) return;
+  if (const std::size_t count = harmonics_of_table(settings); count > 0) {
+    const auto [mean, orders, left_out] = force->table.harmonics(count);
+    oscillator.shape.orders = orders, oscillator.forcing = orders.most_of(0), scene.mean_force = mean;
+    for (ForceOrder<double>& order : oscillator.shape.orders.of)
+      if (oscillator.forcing > 0) order = {order.in_phase / oscillator.forcing, order.quadrature / oscillator.forcing};
+    return;
   }
+  oscillator.shape.table = kept(force->table);
+  oscillator.forcing = oscillator.shape.table->peak();
 }
 
 void check_force_shape(const Settings& settings) {
   const Waveform waveform = waveform_of(settings);
   if (waveform == Waveform::sine) return;
-  const std::string_view key = waveform == Waveform::table ? "force_table" : "force_shape";
+  const std::string_view key = key_of_shape(settings);
   std::string shape = in_quotes(key);
-  if (waveform != Waveform::table)
+  if (key == "force_shape")
     shape += " = " + in_quotes(std::get<std::string>(settings.find(settings.scene_section, key)->value));
+  if (waveform != Waveform::orders || has_force_table(settings)) check_orders(settings, shape);
   for (const Parameter shaking : std::array<Parameter, 2>{"stop_amplitude", "base_amplitude"})
     if (const SourceLocation* const place = place_of_nonzero(settings.given(shaking)))
       fail(*place,

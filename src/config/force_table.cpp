@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
-#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -219,6 +218,9 @@ std::vector<const Setting*> other_forces(const Settings& settings) {
   std::vector<const Setting*> found;
   for (const Parameter key : {Parameter("f"), Parameter("force"), Parameter("force_duty"), Parameter("force_rise")})
     if (const Setting* const given = settings.given(key)) found.push_back(given);
+  for (const Parameter key : all_parameters)
+    if (key.role() == Role::force_order)
+      if (const Setting* const given = settings.given(key)) found.push_back(given);
   if (const Setting* const shape = settings.find(settings.scene_section, "force_shape")) found.push_back(shape);
   return found;
 }
@@ -270,6 +272,10 @@ std::size_t bytes_of_force_table(const Settings& settings) {
 
 bool has_force_table(const Settings& settings) { return given_table(settings) != nullptr; }
 
+std::size_t harmonics_of_table(const Settings& settings) {
+  return static_cast<std::size_t>(settings.integer(settings.scene_section, "force_table_harmonics"));
+}
+
 void let_force_table_or_force_win(Settings& settings) {
   const Setting* const table = given_table(settings);
   if (table == nullptr) return;
@@ -294,31 +300,6 @@ void check_force_table(const Settings& settings) {
     fail(other->key_location, in_quotes(other->key->name) + " beside " + in_quotes(name_of_key) +
                                   ", which gives the force; leave one of them out" +
                                   (is_amplitude(*other) ? ", or multiply the table by force_factor" : ""));
-}
-
-std::string stretch_of_force(const Settings& settings) {
-  const std::optional<MeasuredForce>& force = settings.measured_force;
-  if (!force || force->period == 0) return {};
-  const Parameter frequency = settings.is_si() ? Parameter("frequency") : Parameter("nu");
-  const Setting* const given = settings.given(frequency);
-  const auto stretch = [&](double value) {
-    return (settings.is_si() ? 1 / value : 2 * std::numbers::pi / value) / force->period;
-  };
-  std::vector<double> stretches;
-  if (given == nullptr)
-    stretches.push_back(stretch(1.0));
-  else
-    for (const double value : given->numbers()) stretches.push_back(stretch(value));
-  const auto [least, most] = std::ranges::minmax(stretches);
-  if (std::abs(least - 1) < 1e-9 && std::abs(most - 1) < 1e-9) return {};
-  const auto text = [](double value) {
-    std::ostringstream digits;
-    digits << value;  // six of them
-    return digits.str();
-  };
-  return "a force measured over " + number_text(force->period) + (settings.is_si() ? " s" : " of tau") +
-         ", stretched by " + text(least) + (least == most ? "" : " to " + text(most)) + " to the period of " +
-         std::string(frequency.key());
 }
 
 }  // namespace clatter::config

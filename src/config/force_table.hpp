@@ -23,11 +23,14 @@ void read_force_table(Settings& settings);
 /// Lets a table on the command line replace the force of the file, and the other way round.
 void let_force_table_or_force_win(Settings& settings);
 
+/// The number of its orders that are taken in place of its lines; 0: the lines are.
+[[nodiscard]] std::size_t harmonics_of_table(const Settings& settings);
+
 /// Throws ConfigError if a table stands beside another force.
 void check_force_table(const Settings& settings);
 
-/// By how much the measured period is stretched to that of the force: "... stretched by 1.25 to that of nu"; empty if
-/// it isn't, or the table gives phases.
-[[nodiscard]] std::string stretch_of_force(const Settings& settings);
+/// By how much the measured period is stretched to that of the force, and what orders of it leave out; empty if it
+/// isn't stretched, or the table gives phases, and its lines are taken.
+[[nodiscard]] std::string told_of_force_table(const Settings& settings);
 
 }  // namespace clatter::config

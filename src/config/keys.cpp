@@ -101,14 +101,15 @@ Key key_of(const TableKey& table, Parameter restitution, bool is_si) {
   return key;
 }
 
-/// The keys along which a motion can be followed: none is the friction of a loose mass, of a force in pieces, or of the
-/// motion of one stop by itself.
+/// The keys along which a motion can be followed: none is the friction of a loose mass, of a force that is no sine, or
+/// of the motion of one stop by itself.
 std::vector<std::string_view> keys_to_follow() {
   std::vector<std::string_view> keys;
   for (const Parameter parameter : all_parameters) {
     const bool is_its_friction = parameter.is_loose() && parameter.role() == Role::friction;
     if (parameter.role() != Role::start && parameter.role() != Role::force_shape &&
-        parameter.role() != Role::stop_motion && !parameter.row().is_with_unit && !is_its_friction)
+        parameter.role() != Role::force_order && parameter.role() != Role::stop_motion &&
+        !parameter.row().is_with_unit && !is_its_friction)
       keys.push_back(parameter.key());
   }
   return keys;
@@ -210,7 +211,10 @@ const std::array keys_after_observe{
 /// The key of a parameter, behind the restitution of a stop its tables by speed, and before the shares of the parts of
 /// a force its shape and its table.
 void add_scene_key(Parameter parameter, bool is_si, std::vector<Key>& keys) {
-  if (parameter == "force_duty") keys.push_back(force_shape_key(is_si)), keys.push_back(force_table_key(is_si));
+  if (parameter == "force_duty") {
+    keys.push_back(force_shape_key(is_si)), keys.push_back(force_table_key(is_si));
+    keys.push_back(force_table_harmonics_key(is_si));
+  }
   keys.push_back(key_of(parameter, is_si));
   for (const TableKey& table : keys_of_tables)
     if (table.restitution == parameter.key()) keys.push_back(key_of(table, parameter, is_si));

@@ -3,6 +3,7 @@
 
 #include "config/consistency.hpp"
 #include "config/force_shape.hpp"
+#include "config/force_table.hpp"
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
 
@@ -59,13 +60,14 @@ void check_given(const Settings& settings, const Setting& names, Parameter key) 
          message + (key.is_loose() ? ", and the walls are given one by one; name 'loose_lower' or 'loose_upper'"
                                    : ", and the stops are given one by one; name 'stop_lower' or 'stop_upper'"));
   const Waveform waveform = waveform_of(settings);
-  if ((key == "f" || key == "force") && waveform == Waveform::table)
+  if ((key == "f" || key == "force") && has_force_table(settings))
     fail(names.location, message + ", and the force is given by 'force_table'; name 'force_factor'");
   if (key.role() == Role::shaking && waveform != Waveform::sine)
     fail(names.location,
          message + ", and what is shaken moves as a sine, so far beside a force that is one; leave it out");
-  if ((key == "force_factor" && waveform != Waveform::table) || (key == "force_duty" && !has_duty(waveform)) ||
-      (key == "force_rise" && waveform != Waveform::trapezoid))
+  if ((key == "force_factor" && !has_force_table(settings)) || (key == "force_duty" && !has_duty(waveform)) ||
+      (key == "force_rise" && waveform != Waveform::trapezoid) ||
+      (key.role() == Role::force_order && settings.given(amplitude_of_order(key, settings.is_si())) == nullptr))
     fail(names.location, message + ", which this force doesn't have; leave it out");
   if (key == "quality" && !quantity_given(settings, key))
     fail(names.location, message + ", and the damping isn't given by it; name 'damping' or 'damping_ratio'");

@@ -6,7 +6,6 @@
 
 #include "config/consistency.hpp"
 #include "config/force_shape.hpp"
-#include "config/force_table.hpp"
 #include "config/placed.hpp"
 #include "config/suggestion.hpp"
 
@@ -38,7 +37,7 @@ void refuse_others(const Settings& settings, const Moved& moved) {
     if (given(level)) refuse(moved, in_quotes(level.key()), "leave out one of them, or let both stops move alike");
   if (has_loose_mass(settings)) refuse(moved, "'loose_mass'", "leave out one of them");
   if (waveform_of(settings) != Waveform::sine)
-    refuse(moved, has_force_table(settings) ? "'force_table'" : "'force_shape'",
+    refuse(moved, in_quotes(key_of_shape(settings)),
            "a stop moves as a sine, so far beside a force that is one, too: leave out one of them");
   if (settings.given("start_period") != nullptr)
     refuse(moved, "'start_period'", "that is of motion between standing stops: give x0 and v0 instead");

@@ -8,6 +8,7 @@
 #include "config/force_shape.hpp"
 #include "config/force_table.hpp"
 #include "config/restitution.hpp"
+#include "config/suggestion.hpp"
 
 namespace clatter::config {
 namespace {
@@ -50,6 +51,8 @@ bool none_moves(const Settings& settings) {
 }
 bool undriven(const Settings& settings) {
   if (has_force_table(settings)) return given_everywhere(settings, "force_factor", zero);
+  for (const Parameter order : all_parameters)
+    if (is_order_amplitude(order) && !everywhere(settings, order, zero)) return false;
   return everywhere(settings, "f", zero) && everywhere(settings, "force", zero);
 }
 bool unforced(const Settings& settings) { return undriven(settings) && none_moves(settings); }
@@ -144,6 +147,8 @@ constexpr Rule rules[] = {
     {"scene", "force_rise", has_no_rise, "beside this shape of the force", "write force_shape = \"trapezoid\""},
     {"scene", "force_factor", [](const Settings& settings) { return !has_force_table(settings); },
      "without force_table", "give that"},
+    {"scene", "force_table_harmonics", [](const Settings& settings) { return !has_force_table(settings); },
+     "without force_table", "give that"},
     {"scene", "stop_phase", none_moves, "without stop_amplitude or base_amplitude", "give one of them"},
     {"scene", "stop_phase_lower", lower_stands, "without stop_amplitude_lower", "give that"},
     {"scene", "stop_phase_upper", upper_stands, "without stop_amplitude_upper", "give that"},
@@ -213,6 +218,11 @@ void look_at(const Settings& settings, const Setting& setting, std::vector<Warni
                             "; leave it out, or " + std::string(remedy)});
   };
   if (const auto none = restitution_without_effect(settings, key)) return warn(none->condition, none->remedy);
+  if (const auto order = describes_scene(key.section) ? Parameter::of(key.name) : std::nullopt;
+      order && order->role() == Role::force_order && !is_order_amplitude(*order)) {
+    const Parameter amplitude = amplitude_of_order(*order, settings.is_si());
+    if (everywhere(settings, amplitude, zero)) return warn("without " + in_quotes(amplitude.key()), "give that");
+  }
   for (const Rule& rule : rules) {
     const bool is_in_section =
         rule.section == key.section || (describes_scene(rule.section) && describes_scene(key.section));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "motion/arc_constants.hpp"
+#include "motion/force_terms.hpp"
 
 namespace clatter::motion {
 
@@ -57,9 +58,8 @@ class Arc {
   [[nodiscard, gnu::always_inline]] inline std::array<Number, terms> series(const Motion<Number>& m,
                                                                             const Number& d) const;
   [[nodiscard]] Motion<Number> with_free_part(Motion<Number> m) const {
-    m.free_x =
-        constants_->from_equilibrium(m.x, anchor_, m.offset) - constants_->response_displacement(m.sine, m.cosine),
-    m.free_v = m.v - constants_->response_velocity(m.sine, m.cosine);
+    const FreeMotion<Number> forced = constants_->response_at({m.sine, m.cosine});
+    m.free_x = constants_->from_equilibrium(m.x, anchor_, m.offset) - forced.x, m.free_v = m.v - forced.v;
     if constexpr (E.damping == Damping::heavy) m.fast_x = constants_->fast_mode(m.free_x, m.free_v);
     return m;
   }
@@ -91,15 +91,15 @@ Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>
   using std::abs;
   const Propagator<Number>& p = step.free;
   const auto [phase, change] = advanced(m, step.turn);
-  const Number forced_x = constants_->response_displacement(phase.sine, phase.cosine);
+  const FreeMotion<Number> response = constants_->response_at(phase);
   // eq. 10: no difference of positions, so that a short flight keeps its digits; the response is linear in sine, cosine
-  Number offset =
-      p.a_minus_one * m.free_x + p.b * m.free_v + constants_->response_displacement(change.sine, change.cosine);
+  Number offset = p.a_minus_one * m.free_x + p.b * m.free_v +
+                  (constants_->has_orders() ? response.x - constants_->response_at({m.sine, m.cosine}).x
+                                            : constants_->response_displacement(change.sine, change.cosine));
   auto [free_x, free_v] = constants_->advanced(p, {m.free_x, m.free_v});
   if (constants_->forms_together()) {
-    const Number response_x = m.cosine * step.displacement.cosine + m.sine * step.displacement.sine;
-    const Number response_v = m.cosine * step.velocity.cosine + m.sine * step.velocity.sine;
-    offset += constants_->f * response_x, free_x += constants_->f * response_x, free_v += constants_->f * response_v;
+    const FreeMotion<Number> forced = constants_->from_rest({m.sine, m.cosine}, step);
+    offset += forced.x, free_x += forced.x, free_v += forced.v;
   }
   if constexpr (E.stiffness) {
     const Number& pull = constants_->unbalanced;
@@ -107,14 +107,15 @@ Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>
   }
   offset += m.offset;
   // of two sums for x the one with the smaller terms: between close stops that is anchor + offset
-  const Number whole = abs(constants_->equilibrium) + abs(forced_x) + abs(free_x);
+  const Number whole = abs(constants_->equilibrium) + abs(response.x) + abs(free_x);
   const bool rises = abs(anchor_) + abs(offset) < whole;
-  const Number x = rises ? anchor_ + offset : constants_->equilibrium + forced_x + free_x;
-  const Number v = constants_->response_velocity(phase.sine, phase.cosine) + free_v;
-  const Number a =
-      constants_->forms_together()
-          ? constants_->acceleration(rises ? constants_->from_equilibrium(x, anchor_, offset) : free_x, v, phase.sine)
-          : free_acceleration(p, m) - constants_->nu * constants_->nu * forced_x;
+  const Number x = rises ? anchor_ + offset : constants_->equilibrium + response.x + free_x;
+  const Number v = response.v + free_v;
+  const bool by_equation = constants_->forms_together() || constants_->has_orders();
+  const Number from_equilibrium =
+      rises ? constants_->from_equilibrium(x, anchor_, offset) : Number(response.x + free_x);
+  const Number a = by_equation ? constants_->acceleration(from_equilibrium, v, phase)
+                               : free_acceleration(p, m) - constants_->nu * constants_->nu * response.x;
   Number fast_x = 0;
   if constexpr (E.damping == Damping::heavy) fast_x = m.fast_x * step.fast_decay;
   return {offset, x, v, a, phase.sine, phase.cosine, free_x, free_v, fast_x};
@@ -123,22 +124,18 @@ Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>
 template <class Number, Effects E>
 auto Arc<Number, E>::series(const Motion<Number>& m, const Number& d) const -> std::array<Number, terms> {
   const Number square = d * d;
-  std::array<Number, terms> t;  // t[k] = x^(k) d^k / k!
-  t[0] = 0, t[1] = m.v * d, t[2] = m.a * square / 2;
-  Number force = constants_->f * square, drive = m.sine, next = m.cosine;  // force: f d^2 (nu d)^k / k!
-  for (std::size_t k = 1; k + 2 < terms; ++k) {
-    Number sum = -square * constants_->spring(t[k]);
-    if constexpr (E.damping != Damping::none) sum -= 2 * constants_->h * d * (static_cast<double>(k) + 1) * t[k + 1];
-    if constexpr (E.forcing != Forcing::none) {
-      force *= constants_->nu * d / static_cast<double>(k);
-      sum += force * next;
-      Number turn = -drive;
-      if constexpr (E.stiffness) turn = constants_->curl() * turn;
-      drive = next, next = turn;
+  const auto of_force = [&](auto&& force) {
+    std::array<Number, terms> t;  // t[k] = x^(k) d^k / k!
+    t[0] = 0, t[1] = m.v * d, t[2] = m.a * square / 2;
+    for (std::size_t k = 1; k + 2 < terms; ++k) {
+      Number sum = -square * constants_->spring(t[k]);
+      if constexpr (E.damping != Damping::none) sum -= 2 * constants_->h * d * (static_cast<double>(k) + 1) * t[k + 1];
+      if constexpr (E.forcing != Forcing::none) sum += force(k);
+      t[k + 2] = sum / static_cast<double>((k + 1) * (k + 2));
     }
-    t[k + 2] = sum / static_cast<double>((k + 1) * (k + 2));
-  }
-  return t;
+    return t;
+  };
+  return with_force_terms<terms - 2>(*constants_, Number(constants_->f * square), {m.sine, m.cosine}, d, of_force);
 }
 
 template <class Number, Effects E>
@@ -163,7 +160,7 @@ Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) co
   const SineCosine<Number> phase = advanced(m, constants_->turn(d)).phase;
   const Number x = m.x + offset, v = m.v + gain / d;
   offset += m.offset;
-  const Number a = constants_->acceleration(constants_->from_equilibrium(x, anchor_, offset), v, phase.sine);
+  const Number a = constants_->acceleration(constants_->from_equilibrium(x, anchor_, offset), v, phase);
   Motion<Number> end = with_free_part({offset, x, v, a, phase.sine, phase.cosine});
   if constexpr (E.damping == Damping::heavy) end.fast_x = m.fast_x * exp(-constants_->fast * d);
   return end;

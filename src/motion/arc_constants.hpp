@@ -67,14 +67,33 @@ class ArcConstants {
 
   /// Whether the force is in pieces. Then the phase of a motion, its sine and cosine, stands for s and ds/dtheta.
   [[nodiscard]] bool is_in_pieces() const {
-    if constexpr (E.stiffness && E.forcing != Forcing::none) return !shape.is_sine();
+    if constexpr (E.stiffness && E.forcing != Forcing::none) return shape.is_in_pieces();
     return false;
   }
-  /// Whether arcs form response and transient together: at resonance, and in pieces of a force.
-  [[nodiscard]] bool forms_together() const { return E.forcing == Forcing::secular || is_in_pieces(); }
+  /// Whether the force is a sum of sines.
+  [[nodiscard]] bool has_orders() const {
+    if constexpr (E.stiffness && E.forcing != Forcing::none) return shape.has_orders();
+    return false;
+  }
+  /// Whether arcs form response and transient together: near resonance, that of one of several orders, and in pieces.
+  [[nodiscard]] bool forms_together() const {
+    if constexpr (E.stiffness && E.forcing != Forcing::none) return is_together_;
+    return E.forcing == Forcing::secular;
+  }
+  /// s and ds/dtheta of the force at the phase of a motion.
+  [[nodiscard]] SineCosine<Number> drive(const SineCosine<Number>& phase) const {
+    if (!has_orders()) return phase;
+    const auto s = shape.orders.derivatives(phase);
+    return {s[0], s[1]};
+  }
+  [[nodiscard]] SineCosine<Number> drive(const Motion<Number>& m) const {
+    return drive(SineCosine<Number>{m.sine, m.cosine});
+  }
 
-  /// w^2 of the shape of the force: its second derivative by the phase is -w^2 times itself.
+  /// w^2 of the shape of the force: unless that is a sum of sines, its second derivative by the phase is -w^2 times it.
   [[nodiscard]] Number curl() const { return swing * swing; }
+  /// Bound of |d^2 s/dtheta^2| of the force within a piece.
+  [[nodiscard]] Number sharpest() const { return has_orders() ? shape.orders.most_of(2) : curl(); }
   /// Turn of the phase by a time s, within a piece.
   [[nodiscard]] Turn<Number> turn(const Number& s) const {
     if (!is_in_pieces()) return turn_by(Number(nu * s));
@@ -102,21 +121,27 @@ class ArcConstants {
     if (!is_in_pieces()) return false;
     return m.cosine == 0 || jumps_to(shape, m.sine);
   }
-  /// Largest |ds/dtheta| of the force.
-  [[nodiscard]] Number steepest() const { return is_in_pieces() ? steepest_of(shape) : Number(1); }
-  /// Bounds of s and ds/dtheta from `m` on for a time `span` within a piece: 0 where there is no force.
-  [[nodiscard]] SineCosine<Number> most_of_shape(const Motion<Number>& m, const Number& span) const {
+  /// Bound of |ds/dtheta| of the force.
+  [[nodiscard]] Number steepest() const { return is_in_pieces() || has_orders() ? steepest_of(shape) : Number(1); }
+  /// Bounds of s and ds/dtheta from `m` on for a time `span`, within a piece: 0 where there is no force.
+  [[nodiscard]] SineCosine<Number> most_of_shape(const Motion<Number>& m, const Number& span) const;
+  /// Bounds of the sixth and the next derivatives of arcs.
+  template <std::size_t count = 2>
+  [[nodiscard]] DerivativeBounds<Number, count> bounds() const;
+  /// The size of the part of the force whose response isn't apart.
+  [[nodiscard]] Number together() const {
     using std::abs;
-    if (swing == 0) return {abs(m.sine) + abs(m.cosine) * nu * span, abs(m.cosine)};
-    const Number size = norm(m.sine, Number(m.cosine / swing));
-    return {size, swing * size};
+    return has_orders() ? Number(resonant > 0 ? abs(f) * shape.orders.size(resonant) : Number(0)) : Number(abs(f));
   }
-  /// Bound of the force's part of a derivative that is bounded, likewise.
+  /// The steady response to a piece of a force, as if that lasted for ever; of k > 0.
+  [[nodiscard]] FreeMotion<Number> response_in_piece(const Motion<Number>& m) const;
+  /// Bound of the force's part of a derivative that is bounded, likewise; 0 if arcs have the response apart.
   template <std::size_t count>
-  [[nodiscard]] Number force_in_pieces(const DerivativeBounds<Number, count>& bounds, const Motion<Number>& m,
-                                       const Number& span, int derivative) const {
-    if (!is_in_pieces()) return Number(0);
+  [[nodiscard]] Number force_together(const DerivativeBounds<Number, count>& bounds, const Motion<Number>& m,
+                                      const Number& span, int derivative) const {
+    if (!forms_together()) return Number(0);
     const auto i = static_cast<std::size_t>(derivative);
+    if (!is_in_pieces()) return bounds.forced[i];
     const auto [s, slope] = most_of_shape(m, span);
     return bounds.by_value[i] * s + bounds.by_slope[i] * slope;
   }
@@ -124,15 +149,27 @@ class ArcConstants {
   /// All coefficients of a step by a time s >= 0 (`Arc::moved`).
   [[nodiscard]] Step<Number> step(const Number& s) const;
 
-  /// Displacement and velocity of the steady forced response at a phase (eq. 5); 0 if the forcing is secular, as arcs
-  /// then form response and transient together.
+  /// Displacement and velocity of the steady forced response at a phase (eq. 5); 0 if arcs form response and transient
+  /// together.
+  [[nodiscard]] FreeMotion<Number> response_at(const SineCosine<Number>& phase) const {
+    if (has_orders()) return response_of_orders(phase);
+    return {response_displacement(phase.sine, phase.cosine), response_velocity(phase.sine, phase.cosine)};
+  }
+  /// The same of a sine alone.
   [[nodiscard]] Number response_displacement(const Number& sine, const Number& cosine) const {
-    if constexpr (E.forcing == Forcing::regular) return response.displacement(sine, cosine);
+    if constexpr (may_respond) return response.displacement(sine, cosine);
     return Number(0);
   }
   [[nodiscard]] Number response_velocity(const Number& sine, const Number& cosine) const {
-    if constexpr (E.forcing == Forcing::regular) return response.velocity(nu, sine, cosine);
+    if constexpr (may_respond) return response.velocity(nu, sine, cosine);
     return Number(0);
+  }
+
+  /// Displacement and velocity a step after rest at a phase, by that part of the force whose response isn't apart.
+  [[nodiscard]] FreeMotion<Number> from_rest(const SineCosine<Number>& from, const Step<Number>& step) const {
+    if (has_orders()) return resonant_order_from_rest(from, step);
+    return {f * (from.cosine * step.displacement.cosine + from.sine * step.displacement.sine),
+            f * (from.cosine * step.velocity.cosine + from.sine * step.velocity.sine)};
   }
 
   /// Displacement from the load's equilibrium of a mass at x = anchor + offset, by whichever of the two forms of x
@@ -150,9 +187,9 @@ class ArcConstants {
     return y;
   }
   /// The force on a mass at x = 0, at a forcing phase.
-  [[nodiscard]] Number force(const Number& sine) const {
+  [[nodiscard]] Number force(const SineCosine<Number>& phase) const {
     if constexpr (E.forcing == Forcing::none) return load;
-    return load + f * sine;
+    return load + f * drive(phase).sine;
   }
   /// The constant part of the force on a mass at x.
   [[nodiscard]] Number constant_force(const Number& x) const { return load - spring(x); }
@@ -162,10 +199,15 @@ class ArcConstants {
     if constexpr (E.stiffness) return {2 * h, f, nu, k, unbalanced, curl()};
     return {2 * h, f, nu};
   }
-  [[nodiscard]] Number acceleration(const Number& displacement, const Number& v, const Number& sine) const {
-    return equation().acceleration(displacement, v, sine);
+  [[nodiscard]] Number acceleration(const Number& displacement, const Number& v,
+                                    const SineCosine<Number>& phase) const {
+    return equation().acceleration(displacement, v, drive(phase).sine);
   }
-  [[nodiscard]] Number jerk(const Motion<Number>& m) const { return equation().jerk(m.v, m.a, m.cosine); }
+  [[nodiscard]] Number jerk(const Motion<Number>& m) const { return equation().jerk(m.v, m.a, drive(m).cosine); }
+  [[nodiscard]] HigherDerivatives<Number> derivatives(const Motion<Number>& m) const {
+    if (has_orders()) return equation().derivatives(m.v, m.a, shape.orders.derivatives({m.sine, m.cosine}));
+    return equation().derivatives(m.v, m.a, m.sine, m.cosine);
+  }
 
   /// Speed at the soft stop in contact of a free undamped motion that is `offset` beyond it with velocity v, by its
   /// energy.
@@ -199,13 +241,21 @@ class ArcConstants {
   Number natural;                   ///< |k|^(1/2)
   Number root;                      ///< lambda = |k - h^2|^(1/2)
   Number slow, fast;                ///< decay rates of heavy damping; slow < 0 with an unstable spring
-  Response<Number> response;        ///< eq. 6; 0 if arcs form it together with the free motion (secular)
+  Response<Number> response;        ///< eq. 6; 0 if arcs form it together with the free motion
   Number detuning;                  ///< nu - lambda, without cancellation
   Number rate;                      ///< the fastest of the motion's frequencies and decay rates
   Number period;                    ///< of the force; without forcing 2 pi
   DerivativeBounds<Number> derivative_bounds;
+  Number response_speed{};                                                ///< largest velocity of that
+  std::array<ForceOrder<Number>, ForceOrders<Number>::most> responses{};  ///< P and Q of unit forces of orders, but
+  std::array<Number, 3> order_bounds{};  ///< of the sixth and the next derivatives of their sum, over nu^6
+  Response<Number> of_swing{};           ///< to a half-sine
+  std::size_t resonant = 0;              ///< the one near resonance, whose response a step has; 0: none is
 
  private:
+  /// Whether the set has arcs that don't form response and transient together; those of any stiffness have both kinds.
+  static constexpr bool may_respond = E.forcing == Forcing::regular || (E.stiffness && E.forcing == Forcing::secular);
+
   struct Coefficients {};  ///< tells the numbers of eq. 3 from those of an oscillator in braces
   ArcConstants(Coefficients, const Number& damping, const Number& forcing, const Number& frequency,
                const Number& constant_force, const Number& stiffness, const BasicForceShape<Number>& force_shape);
@@ -229,118 +279,28 @@ class ArcConstants {
   void respond_from_rest(const Number& s, const Beat& beat, Step<Number>& step) const;
   void respond_away_from_resonance(const Beat& beat, Step<Number>& step) const;
   void respond_in_piece(const Number& s, Step<Number>& step) const;
+  void respond_to_orders();
+  [[nodiscard, gnu::noinline]] FreeMotion<Number> response_of_orders(const SineCosine<Number>& phase) const;
+  [[nodiscard, gnu::noinline]] FreeMotion<Number> resonant_order_from_rest(const SineCosine<Number>& from,
+                                                                           const Step<Number>& step) const;
+  [[nodiscard]] Beat beat_of(const Number& frequency, const Number& s) const {
+    return {frequency, detuning_of(frequency), turn_by(Number(frequency * s))};
+  }
+  [[nodiscard]] Number detuning_of(const Number& frequency) const {
+    return (frequency - natural) + h * h / (natural + root);
+  }
+  /// Whether a frequency is so near resonance that its response cancels with the transient.
+  [[nodiscard]] bool is_resonant(const Number& off) const {
+    const Number least = secular_distance * natural;
+    return E.damping != Damping::heavy && h * h + off * off < least * least;
+  }
   [[nodiscard]] Ramp<Number> ramp(const Number& s, const Propagator<Number>& free) const;
 
+  bool is_together_ = false;
   Number coarse_root_{}, spare_root_{};  ///< light damping: root is their difference; the first is 1 if h < 1/2
 };
 
-template <class Number, Effects E>
-ArcConstants<Number, E>::ArcConstants(Coefficients, const Number& damping, const Number& forcing,
-                                      const Number& frequency, const Number& constant_force, const Number& stiffness,
-                                      const BasicForceShape<Number>& force_shape)
-    : h(damping),
-      f(forcing),
-      nu(frequency),
-      load(constant_force),
-      k(1),
-      equilibrium(load),
-      unbalanced(0),
-      shape(force_shape),
-      swing(swing_of(shape)),
-      natural(1) {
-  using std::abs, std::max, std::sqrt;
-  if constexpr (E.stiffness) {
-    set_stiffness(stiffness);
-  } else {
-    root = sqrt(abs((1 - h) * (1 + h)));
-    fast = h + root;
-    slow = 1 / fast;
-    if constexpr (E.forcing == Forcing::regular) response = steady_response(h, f, nu);
-    rate = max(nu, max(Number(1), Number(2 * h)));
-  }
-  coarse_root_ = select<Number>(h < natural / 2, natural, root);
-  spare_root_ = select<Number>(h < natural / 2, Number(h * h / (natural + root)), Number(0));
-  detuning = (nu - natural) + h * h / (natural + root);
-  period = 2 * pi<Number>() / nu;
-  derivative_bounds = motion::derivative_bounds(equation(), natural);
-}
-
-template <class Number, Effects E>
-void ArcConstants<Number, E>::set_stiffness(const Number& stiffness) {
-  using std::abs, std::max, std::sqrt;
-  k = stiffness;
-  const bool sprung = k < 0 || k > 0;
-  natural = sprung ? Number(sqrt(abs(k))) : Number(0);
-  equilibrium = sprung ? Number(load / k) : Number(0);
-  unbalanced = sprung ? Number(0) : load;
-  balance = equilibrium;
-  root = k > 0 ? Number(sqrt(abs((natural - h) * (natural + h)))) : norm(h, natural);
-  if (!sprung && h > 0 && !is_always_zero(k)) root = sqrt(h * h - k);  // of k only the derivatives count
-  if (E.damping == Damping::light && !(root > 0)) root = epsilon<Number>() * natural;  // h^2 < k by rounding alone
-  fast = h + root;
-  slow = sprung || (fast > 0 && !is_always_zero(k)) ? Number(k / fast) : Number(0);
-  if constexpr (E.forcing == Forcing::regular)
-    if (!is_in_pieces()) response = response_to(Number(k - nu * nu), h, f, nu);
-  rate = max(Number(is_in_pieces() ? max(nu, Number(swing * nu)) : nu), max(natural, Number(k > 0 ? 2 * h : fast)));
-}
-
-template <class Number, Effects E>
-Propagator<Number> ArcConstants<Number, E>::propagator(const Number& s) const {
-  using std::abs, std::cos, std::exp, std::expm1, std::sin;
-  if constexpr (CarriesDerivatives<Number> && E.damping != Damping::none) {
-    const Number square = (k > 0 ? (h - natural) * (h + natural) : h * h - k) * s * s;
-    if (abs(square) <= Number(near_critical)) {
-      Propagator<Number> free = near_critical_propagator(h, k, s, square);
-      free.a_minus_one = is_short(s) ? short_a_minus_one(s) : Number(free.a - 1);
-      return free;
-    }
-  }
-  if constexpr (E.damping == Damping::none) {
-    const Number half = sin(s / 2), b = 2 * half * cos(s / 2), a_minus_one = -2 * half * half;
-    return {1 + a_minus_one, b, 1 + a_minus_one, b, a_minus_one};
-  } else if constexpr (E.damping == Damping::light) {
-    // a long arc turns by more than one angle can hold, so the digits that the difference of the two products loses are
-    // added again
-    const Number coarse = coarse_root_ * s, spare = spare_root_ * s;
-    const Number angle = coarse - spare, lost = (coarse - angle) - spare;
-    const Number sine = sin(angle / 2), cosine = cos(angle / 2);
-    const Number half = sine + lost / 2 * cosine, other = cosine - lost / 2 * sine;
-    const Number cosine_minus_one = -2 * half * half;
-    Propagator<Number> free = light_propagator<Number>(exp(-h * s), 1 + cosine_minus_one, 2 * half * other / root, h);
-    if constexpr (E.stiffness) free.d = mul_add(h + h, free.c, k * free.b);
-    free.a_minus_one = s * natural <= Number(0.25)
-                           ? short_a_minus_one(s)
-                           : expm1(-h * s) * (1 + cosine_minus_one) + cosine_minus_one + h * free.b;
-    return free;
-  } else {
-    const Number slow_decay = exp(-slow * s), fast_decay = exp(-fast * s), spread = 2 * root * s;
-    const Number b =
-        slow_decay * select<Number>(spread > 0, -expm1(-spread) / (2 * root), s);  // root = 0: critical damping
-    const Number d = 2 * h * fast_decay - slow * slow * b;                         // 2 h slow - k = slow^2
-    const Number a_minus_one = is_short(s) ? short_a_minus_one(s) : Number(expm1(-slow * s) + slow * b);
-    return {slow_decay + slow * b, b, fast_decay - slow * b, d, a_minus_one};
-  }
-}
-
-/// Whether a time is short for the oscillator of heavy damping.
-template <class Number, Effects E>
-bool ArcConstants<Number, E>::is_short(const Number& s) const {
-  return 8 * h * s <= 1 && (!E.stiffness || 4 * natural * s <= 1);
-}
-
-/// A(s) - 1 for a time that is short for the oscillator, though perhaps not for a fast force, by the Taylor series: the
-/// closed form is a difference of terms 1/s times larger.
-template <class Number, Effects E>
-Number ArcConstants<Number, E>::short_a_minus_one(const Number& s) const {
-  constexpr int terms = std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  // (1/4)^n / n! below rounding
-  Number before = 0, last = -spring(s * s) / 2, sum = last;                   // of s^n A^(n)(0) / n!
-  for (int n = 3; n < terms; ++n) {
-    const Number next = -(spring(s * s * before) + 2 * h * s * (n - 1) * last) / (n * (n - 1));
-    sum += next, before = last, last = next;
-  }
-  return sum;
-}
-
 }  // namespace clatter::motion
 
+#include "motion/arc_force.hpp"
 #include "motion/arc_steps.hpp"

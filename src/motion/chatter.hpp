@@ -26,7 +26,7 @@ template <class Number, Effects E>
                                              const ContactForce<Number>& press, const Number& rebound) {
   using std::abs;
   const Number &a = press.force, &h = constants.h, R = stop.law.share_at_rest();
-  const Number slope = press.rate / a, bend = abs(constants.f) / a * constants.nu * constants.nu * constants.curl();
+  const Number slope = press.rate / a, bend = abs(constants.f) / a * constants.nu * constants.nu * constants.sharpest();
   const Number time = 2 * (rebound / a) / (1 - R), rates = constants.natural + 2 * h + abs(slope);
   if (stop.law.is_constant())
     return {time - (h + slope) * time * time / 3, (rates * rates + bend) * time * time * time};
@@ -47,7 +47,7 @@ template <class Number, Effects E>
   const Number by_speed =
       (w / a) * (p + p * taken / 3 + p * (1 + p) * (2 + 3 * p) * taken * taken / (12 * (1 + 2 * p)));
   const Number rates = constants.natural + 2 * h + abs(slope), square = first * first,
-               bend = abs(constants.f) / a * constants.nu * constants.nu * constants.curl();
+               bend = abs(constants.f) / a * constants.nu * constants.nu * constants.sharpest();
   return {first - by_speed - ((1 - p) * h / 3 + (2 + p) * slope / 6) * square,
           taken * taken * taken * (w / a) + (rates * taken + (rates * rates + bend) * first) * square};
 }
@@ -72,7 +72,7 @@ template <class Number, Effects E>
   const Number sum_by_a = (flight_by_a + sum * ratio_by_a) / (1 - ratio);
   const Number sum2 = (flight2 + sum * ratio2 + sum_by_a * j * flight * ratio) / ((1 - ratio) * (1 + ratio));
   const Number time = sum * w, rates = constants.natural + 2 * h + abs(j) / down,
-               bend = abs(constants.f) / down * constants.nu * constants.nu * constants.curl();
+               bend = abs(constants.f) / down * constants.nu * constants.nu * constants.sharpest();
   return {time + sum2 * w * w, (rates * rates + bend) * time * time * time};
 }
 
@@ -158,7 +158,7 @@ template <class Number, Effects E>
   const ChatterSum<Number> sum = rubbing_chatter_sum(constants, stop, press, kinetic, rebound);
   if (!(sum.time > 0) || !(sum.bound <= accuracy * max(sum.time, Number(1 / constants.rate)))) return std::nullopt;
   const Number falls =
-      (abs(press.rate) + abs(constants.f) * constants.nu * constants.nu * constants.curl() * sum.time) * sum.time;
+      (abs(press.rate) + abs(constants.f) * constants.nu * constants.nu * constants.sharpest() * sum.time) * sum.time;
   return press.force - falls > static_level ? std::optional<Number>(sum.time) : std::nullopt;
 }
 

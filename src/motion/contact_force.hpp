@@ -33,8 +33,9 @@ template <class Number, Effects E>
 [[nodiscard]] ContactForce<Number> contact_force(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
                                                  const SineCosine<Number>& phase) {
   if constexpr (E.forcing == Forcing::none) return {stop.into(constants.constant_force(stop.position)), Number(0)};
-  return {stop.into(constants.f * phase.sine + constants.constant_force(stop.position)),
-          stop.into(constants.f * constants.nu * phase.cosine)};
+  const auto [s, slope] = constants.drive(phase);
+  return {stop.into(constants.f * s + constants.constant_force(stop.position)),
+          stop.into(constants.f * constants.nu * slope)};
 }
 
 /// Whether a stop holds a mass at rest from this instant on. Decided without the force if it can't change the answer:
@@ -53,13 +54,14 @@ template <class Number, Effects E>
 }
 
 /// Forcing phase, in turns 0 ... 1, at which f sin(theta) passes a value, on its way to a side; nothing if it never
-/// does, or only touches it. Of a force in pieces within that of the phase `from`.
+/// does, or only touches it. Of a force in pieces within that of the phase `from`, of a sum of sines next after it.
 template <class Number, Effects E>
 [[nodiscard]] std::optional<Number> phase_of_force(const ArcConstants<Number, E>& constants, const Number& needed,
                                                    Side side, const Number& from) {
   using std::abs, std::atan2, std::sqrt;
   const Number& f = constants.f;
   if (constants.is_in_pieces()) return phase_of_shape(constants.shape, f, needed, side == Side::upper, from);
+  if (constants.has_orders()) return phase_of_orders(constants.shape.orders, f, needed, side == Side::upper, from);
   if (E.forcing == Forcing::none || !(abs(needed) < abs(f))) return std::nullopt;
   // |cos(theta)|, over |f| so that no square vanishes
   const Number size = abs(f), along = sqrt((size - needed) / size * ((size + needed) / size));
@@ -69,7 +71,7 @@ template <class Number, Effects E>
 }
 
 /// Forcing phase, in turns 0 ... 1, at which a stop releases a pressed mass (eq. 26); nothing if the pressing force
-/// never falls to 0, or only touches it. Of a force in pieces within that of the phase `from`.
+/// never falls to 0, or only touches it; by the phase `from` as `phase_of_force`.
 template <class Number, Effects E>
 [[nodiscard]] std::optional<Number> release_phase(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
                                                   const Number& from = Number(0)) {

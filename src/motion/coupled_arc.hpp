@@ -72,22 +72,20 @@ struct Coupling {
   }
   /// Completes the series of both masses over a step d, whose first three terms are known.
   template <class Constants>
-  void complete(const Constants& c, const Number& d, const Number& sine, const Number& cosine, Powers<Number>& x,
+  void complete(const Constants& c, const Number& d, const SineCosine<Number>& phase, Powers<Number>& x,
                 Powers<Number>& z) const {
     const Number kappa = pushes ? Number(wall.stiffness * d * d) : Number(0),
                  damper = pushes ? Number(2 * wall.damping * d) : Number(0), stiffness = c.k * d * d,
                  damping = 2 * c.h * d;
-    Number force = c.f * d * d, drive = sine, next = cosine;  // force: f d^2 (nu d)^k / k!
-    for (std::size_t k = 1; k + 2 < x.size(); ++k) {
-      const double more = static_cast<double>(k + 1), both = static_cast<double>((k + 1) * (k + 2));
-      force *= c.nu * d / static_cast<double>(k);
-      const Number pushed = kappa * z[k] + damper * (more * z[k + 1]);
-      const Number pulled = -stiffness * x[k] - damping * (more * x[k + 1]) + force * next + pushed;
-      const Number turn = -c.curl() * drive;
-      drive = next, next = turn;
-      x[k + 2] = is_held ? Number(0) : Number(pulled / both);
-      z[k + 2] = -pushed / ratio / both - x[k + 2];
-    }
+    with_force_terms<std::tuple_size_v<Powers<Number>>>(c, Number(c.f * d * d), phase, d, [&](auto&& force) {
+      for (std::size_t k = 1; k + 2 < x.size(); ++k) {
+        const double more = static_cast<double>(k + 1), both = static_cast<double>((k + 1) * (k + 2));
+        const Number pushed = kappa * z[k] + damper * (more * z[k + 1]);
+        const Number pulled = -stiffness * x[k] - damping * (more * x[k + 1]) + force(k) + pushed;
+        x[k + 2] = is_held ? Number(0) : Number(pulled / both);
+        z[k + 2] = -pushed / ratio / both - x[k + 2];
+      }
+    });
   }
 };
 
@@ -245,7 +243,7 @@ template <class Number, Effects E>
   Powers<Number> x{}, z{};
   x[1] = start.v * length, x[2] = start.a * length * length / 2;
   z[1] = from.w * length, z[2] = a * length * length / 2;
-  coupling.complete(any, length, start.sine, start.cosine, x, z);
+  coupling.complete(any, length, {start.sine, start.cosine}, x, z);
   return {CoupledArc<Number>(any, start, anchor, length, Course<Number>::of(x, start.v, length)), coupling, from, load,
           Course<Number>::of(z, from.w, length)};
 }
@@ -263,7 +261,7 @@ template <class Number, Effects E>
     x[0] = x0, x[1] = v0 * s, x[2] = a * s * s / 2;
     z[0] = z0, z[1] = w0 * s, z[2] = (-push / coupling.ratio - a) * s * s / 2;
     if (coupling.is_held) x[1] = x[2] = 0, z[2] = -push / coupling.ratio * s * s / 2;
-    coupling.complete(free, s, 0.0, 1.0, x, z);
+    coupling.complete(free, s, {0.0, 1.0}, x, z);
     const double at_end = value_of(x, 1.0), relative = value_of(z, 1.0), over = s > 0 ? s : 1.0;
     const double v = s > 0 ? value_of(derivative_of(x), 1.0) / over : v0,
                  w = s > 0 ? value_of(derivative_of(z), 1.0) / over : w0;

@@ -27,8 +27,8 @@ struct Holding {
     return holds_against(Side::lower, constants, phase) && holds_against(Side::upper, constants, phase);
   }
 
-  /// Phase in turns, 0 ... 1, at which it is let go towards a side; nothing if it never is (eq. 26 with the level). Of
-  /// a force in pieces within that of the phase `from`.
+  /// Phase in turns, 0 ... 1, at which it is let go towards a side; nothing if it never is (eq. 26 with the level); by
+  /// the phase `from` as `phase_of_force`.
   template <Effects E>
   [[nodiscard]] std::optional<Number> release_phase(const ArcConstants<Number, E>& constants, Side side,
                                                     const Number& from = Number(0)) const {
@@ -45,8 +45,9 @@ struct Holding {
     const Number left = level - sign_of(side) * constant, most = abs(constants.f);
     if (left >= most) return true;
     if (left <= -most) return false;
-    const Number now = left - sign_of(side) * constants.f * phase.sine;
-    return now > 0 || (now == 0 && sign_of(side) * constants.f * phase.cosine < 0);
+    const auto [s, slope] = constants.drive(phase);
+    const Number now = left - sign_of(side) * constants.f * s;
+    return now > 0 || (now == 0 && sign_of(side) * constants.f * slope < 0);
   }
 };
 

@@ -38,6 +38,16 @@ struct EquationOfMotion {
     d.d6 = next(force(square, force4), d.d5, d.d4);
     return d;
   }
+  /// From derivatives of s by the phase.
+  [[nodiscard]] HigherDerivatives<Number> derivatives(const Number& v, const Number& a,
+                                                      const std::array<Number, 5>& s) const {
+    HigherDerivatives<Number> d;
+    d.d3 = next(force(f * nu, s[1]), a, v);
+    d.d4 = next(force(f * nu * nu, s[2]), d.d3, a);
+    d.d5 = next(force(f * nu * nu * nu, s[3]), d.d4, d.d3);
+    d.d6 = next(force(f * nu * nu * nu * nu, s[4]), d.d5, d.d4);
+    return d;
+  }
 
  private:
   /// A second derivative by the phase, which lanes take of sines alone.

@@ -17,7 +17,7 @@ struct LocalBounds {
 /// The oscillator that motions belong to between two events: x'' + 2 h x' + k x = force.
 struct Field {
   double h = 0, k = 1;
-  double shake = 0;   ///< |f| nu, times the largest |ds/dtheta| of a force in pieces
+  double shake = 0;   ///< |f| nu, times the largest |ds/dtheta| of a force that is no sine
   double weight = 1;  ///< Omega: the norm of a difference is that of (Omega x, v)
   double drift = 0;   ///< bound of the rate at which the norm grows, forwards (eqs. 48, 57); backwards 2 h more
 

@@ -253,7 +253,7 @@ class MarginRule : public SlopedRule<MarginRule<Number, E, margins>, Number> {
     const auto& c = arc_.constants();
     if (!(c.k > 0)) return false;
     const Number far = reach(c, here, time);
-    const Number fast = c.nu * c.response.amplitude + c.natural * (far - c.response.amplitude);
+    const Number fast = c.response_speed + c.natural * (far - c.response.amplitude);
     for (const Margin<Number>& margin : margins_) {
       const Number middle = margin.constant + margin.place * (c.balance - (arc_.anchor() - c.origin));
       if (!(abs(margin.place) * far + abs(margin.speed) * fast < middle)) return false;
@@ -266,7 +266,7 @@ class MarginRule : public SlopedRule<MarginRule<Number, E, margins>, Number> {
     using std::abs;
     const auto& c = arc_.constants();
     return abs(margins_[i].place) * (abs(here.offset) + c.response.amplitude + abs(here.v) / c.rate) +
-           abs(margins_[i].speed) * (abs(here.v) + abs(here.a) / c.rate + c.nu * c.response.amplitude);
+           abs(margins_[i].speed) * (abs(here.v) + abs(here.a) / c.rate + c.response_speed);
   }
   /// Of the enclosure of a margin over a step.
   [[nodiscard]] Number error(std::size_t i, const Motion<Number>& here, const Number& step) const {

@@ -105,7 +105,7 @@ class GuidedContact {
     Number elapsed(near);
     for (int evaluations = 1; evaluations <= most_evaluations; ++evaluations) {
       Motion<Number> m = arc.at(elapsed);
-      const auto higher = arc.constants().equation().derivatives(m.v, m.a, m.sine, m.cosine);
+      const auto higher = arc.constants().derivatives(m);
       const Number gap = rule.of(i, m) * sign, inverse = 1 / m.v;
       Number more = gap * inverse;
       const double rough = in_double(more), bend = std::abs(rough * in_double(m.a * inverse));

@@ -43,8 +43,9 @@ class LooseTangent {
     settle(start.a, a_loose);
     if (sticks_ && !is_held)
       release(start.a, a_loose,
-              constants.is_let_go_by_jump(start) ? 0.0
-                                                 : constants.spring(1.0) / (constants.f * constants.nu * start.cosine));
+              constants.is_let_go_by_jump(start)
+                  ? 0.0
+                  : constants.spring(1.0) / (constants.f * constants.nu * constants.drive(start).cosine));
     if constexpr (Housed<A>) on_wall_ = wall_of(arc.loose) != Side::none;
     const Row place = place_in_housing();
     flow(arc, length);
@@ -53,7 +54,7 @@ class LooseTangent {
     alone_ = carries ? load - held_.push / rule_.ratio : loose_acceleration(arc, length);
     if (carried_ != 0) move_with_main(place), lose(on_wall_ ? 2 : 1);
     h_ = constants.h, k_ = constants.spring(1.0), friction_ = constants.friction;
-    force_ = constants.force(arc.phase_after(length).sine) + push_on(arc, length);
+    force_ = constants.force(arc.phase_after(length)) + push_on(arc, length);
     if (is_rough_) note_end(arc, length, is_held);
     rescale();
   }

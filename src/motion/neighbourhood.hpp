@@ -48,7 +48,7 @@ class Neighbourhood {
     const double from = std::max(0.0, clear_from_ - begin);
     if (approached_ == Side::none && from < length) clear(arc, begin, from, length);
     advance(arc.constants(), duration);
-    force_ = acceleration(arc.constants().force(arc.phase_after(duration).sine));
+    force_ = acceleration(arc.constants().force(arc.phase_after(duration)));
     friction_ = acceleration(arc.constants().friction);
   }
   void event(const Event& event) {

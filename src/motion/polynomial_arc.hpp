@@ -29,9 +29,9 @@ class PolynomialArc {
   /// Motion a time s after the start, 0 <= s <= length, with the acceleration of eq. 3.
   [[nodiscard]] Motion<double> at(double s) const {
     const double u = share(s), offset = value_at(offset_, u), v = value_at(velocity_, u), x = anchor_ + offset;
-    const auto [sine, cosine] = phase_after(s);
-    return {offset, x,     v, constants_->acceleration(constants_->from_equilibrium(x, anchor_, offset), v, sine),
-            sine,   cosine};
+    const SineCosine<double> phase = phase_after(s);
+    const double a = constants_->acceleration(constants_->from_equilibrium(x, anchor_, offset), v, phase);
+    return {offset, x, v, a, phase.sine, phase.cosine};
   }
 
   /// Displacement alone.

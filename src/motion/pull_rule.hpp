@@ -17,10 +17,7 @@ class PullRule : public SlopedRule<PullRule<Number, E>, Number> {
   static constexpr bool alike = true;
 
   PullRule(const Arc<Number, E>& arc, Side wall, const Number& load)
-      : arc_(arc),
-        load_(load),
-        sign_(sign_of(wall)),
-        bounds_(derivative_bounds<3>(arc.constants().equation(), arc.constants().natural)) {}
+      : arc_(arc), load_(load), sign_(sign_of(wall)), bounds_(arc.constants().template bounds<3>()) {}
 
   [[nodiscard]] Number of(std::size_t, const Motion<Number>& m) const { return sign_ * (load_ - m.a); }
   [[nodiscard]] Number slope(std::size_t, const Motion<Number>& m) const { return -sign_ * arc_.constants().jerk(m); }
@@ -31,7 +28,7 @@ class PullRule : public SlopedRule<PullRule<Number, E>, Number> {
     const auto& c = arc_.constants();
     if (!(c.k > 0)) return false;  // nothing bounds the speed of the transient
     const Number far = reach(c, here, time);
-    const Number fast = c.nu * c.response.amplitude + c.natural * (far - c.response.amplitude);
+    const Number fast = c.response_speed + c.natural * (far - c.response.amplitude);
     return abs(c.f) + abs(c.unbalanced) + abs(c.k) * far + 2 * c.h * fast < sign_ * load_;
   }
   [[nodiscard]] Number width(std::size_t, const Motion<Number>& here) const {
@@ -57,7 +54,7 @@ class PullRule : public SlopedRule<PullRule<Number, E>, Number> {
  private:
   /// Third and fourth derivative of the displacement.
   [[nodiscard]] std::array<Number, 2> higher(const Motion<Number>& m) const {
-    const auto d = arc_.constants().equation().derivatives(m.v, m.a, m.sine, m.cosine);
+    const auto d = arc_.constants().derivatives(m);
     return {d.d3, d.d4};
   }
 

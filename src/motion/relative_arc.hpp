@@ -66,8 +66,8 @@ class RelativeArc {
   [[nodiscard]] Motion<Number> main_at(const Motion<Number>& m) const {
     const auto& c = constants();
     Motion<Number> main = m;
-    main.x = c.equilibrium + (m.free_x + c.response_displacement(m.sine, m.cosine));
-    main.v = m.free_v + c.response_velocity(m.sine, m.cosine);
+    const FreeMotion<Number> response = c.response_at({m.sine, m.cosine});
+    main.x = c.equilibrium + (m.free_x + response.x), main.v = m.free_v + response.v;
     main.offset = main.x - main_.anchor(), main.a = load_ - m.a;
     return main;
   }

@@ -27,14 +27,14 @@ class SlideRule : public SlopedRule<SlideRule<Number, E>, Number> {
     const auto& c = arc_.constants();
     if (!(c.k > 0)) return false;
     const Number far = reach(c, here, time);
-    const Number fast = c.nu * c.response.amplitude + c.natural * (far - c.response.amplitude);
+    const Number fast = c.response_speed + c.natural * (far - c.response.amplitude);
     const Number now = sign_ * (here.v + arc_.main_at(here).v), end = now + sign_ * arc_.load() * time;
     return fast < min(now, end);
   }
   [[nodiscard]] Number width(std::size_t, const Motion<Number>& here) const {
     using std::abs;
     const auto& c = arc_.constants();
-    return abs(here.v) + abs(here.a) / c.rate + c.nu * c.response.amplitude;
+    return abs(here.v) + abs(here.a) / c.rate + c.response_speed;
   }
   [[nodiscard]] Number error(std::size_t, const Motion<Number>& here, const Number& step) const {
     return hermite_error(sixth_bound(arc_.constants(), here, step, 1));

@@ -26,7 +26,7 @@ class TangentMap {
     if (std::exchange(sticks_, false)) release(arc);
     multiply(power_of(constants, Number(length)));
     friction_ = constants.friction;
-    h_ = constants.h, k_ = constants.k, force_ = constants.force(arc.phase_after(Number(length)).sine);
+    h_ = constants.h, k_ = constants.k, force_ = constants.force(arc.phase_after(Number(length)));
   }
   void event(const Event& event) {
     using Kind = Event::Kind;
@@ -93,7 +93,7 @@ class TangentMap {
   void release(const A& arc) {
     const auto& constants = arc.constants();
     const auto& start = arc.start();
-    const Number later = constants.spring(Number(1)) / (constants.f * constants.nu * start.cosine);
+    const Number later = constants.spring(Number(1)) / (constants.f * constants.nu * constants.drive(start).cosine);
     if (start.a != 0 && !constants.is_let_go_by_jump(start))
       multiply({{Number(1), Number(0), -start.a * later, Number(1)}, Number(1)});
   }

@@ -59,6 +59,17 @@ Reason damping_reason(const Oscillator& oscillator) {
   }
 }
 
+/// "of orders 1, 3 and 5"
+std::string orders_of(const ForceOrders<double>& orders) {
+  std::vector<std::string> numbers;
+  for (std::size_t j = 1; j <= orders.of.size(); ++j)
+    if (!orders.is_zero(j)) numbers.push_back(std::to_string(j));
+  std::string said = numbers.size() > 1 ? "of orders " : "of order ";
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    said += (i == 0 ? "" : i + 1 == numbers.size() ? " and " : ", ") + numbers[i];
+  return said;
+}
+
 Reason forcing_reason(const Oscillator& oscillator) {
   if (oscillator.forcing == 0 && oscillator.paces_stops)
     return {"forcing", true, "f = 0, but as a stop that moves sees it, the mass is forced"};
@@ -67,6 +78,8 @@ Reason forcing_reason(const Oscillator& oscillator) {
   std::string said = "f = " + text(oscillator.forcing);
   if (shape.table != nullptr)
     said += ", by a table of " + std::to_string(shape.table->knots().size()) + " straight lines";
+  else if (shape.has_orders())
+    said += " in all, " + orders_of(shape.orders);
   else if (!shape.is_sine())
     said += ", " + std::string(force_shapes[static_cast<std::size_t>(shape.waveform)]);
   if (const double mean = mean_of(shape); mean != 0) said += " with the mean " + text(oscillator.forcing * mean);
@@ -96,13 +109,25 @@ Reason stop_motion_reason(const point::Problem& scene) {
   return {"stops move", true, said + ": contacts are found as each stop sees the mass"};
 }
 
+Reason resonance_of_orders(const Oscillator& oscillator) {
+  for (std::size_t j = 1; j <= oscillator.shape.orders.of.size(); ++j) {
+    Oscillator alone = oscillator;
+    alone.shape = {}, alone.frequency *= static_cast<double>(j);
+    if (!oscillator.shape.orders.is_zero(j) && rotates(oscillator) && forcing_of(alone) == Forcing::secular)
+      return {"resonance", true,
+              "by order " + std::to_string(j) + ", whose response nearly cancels with the transient"};
+  }
+  return {"resonance", false, "of no order: responses and transient keep their digits apart"};
+}
+
 Reason resonance_reason(const Oscillator& oscillator) {
   if (oscillator.stiffness <= 0) return {"resonance", false, "no spring that a force could be in resonance with"};
   const double distance = std::hypot(oscillator.damping, oscillator.frequency - 1);
   if (oscillator.paces_stops) return {"resonance", true, "each stop that moves sees another force"};
   if (oscillator.forcing == 0) return {"resonance", false, "f = 0: nothing to resonate with"};
-  if (!oscillator.shape.is_sine())
+  if (oscillator.shape.is_in_pieces())
     return {"resonance", true, "a force in pieces: in each of them response and transient are computed together"};
+  if (oscillator.shape.has_orders()) return resonance_of_orders(oscillator);
   const std::string what = "hypot(h, nu - 1) = " + text(distance);
   if (forcing_of(oscillator) == Forcing::secular)
     return {"resonance", true, what + " < 1/16: response and transient nearly cancel"};

@@ -9,13 +9,14 @@
 #include <string_view>
 
 #include "math/number.hpp"
+#include "scene/force_orders.hpp"
 #include "scene/force_table.hpp"
 
 namespace clatter {
 inline namespace scene {
 
-/// The course of a force over its period: a sine, or one of pieces.
-enum class Waveform : std::uint8_t { sine, square, pulse, triangle, trapezoid, sawtooth, half_sine, table };
+/// The course of a force over its period: a sine, one of pieces, or a sum of sines.
+enum class Waveform : std::uint8_t { sine, square, pulse, triangle, trapezoid, sawtooth, half_sine, table, orders };
 
 /// The names of those that a key chooses, in the order of Waveform.
 inline constexpr std::array<std::string_view, 7> force_shapes{"sine",      "square",   "pulse",    "triangle",
@@ -33,8 +34,11 @@ struct BasicForceShape {
   Number duty{0.5};   ///< share of the period of the first part of a square, a pulse or a half-sine, 0 < duty < 1
   Number rise{0.25};  ///< share of the period in which a trapezoid rises from -1 to 1, 0 < rise <= 1/2
   const ForceTable* table{nullptr};  ///< of Waveform::table alone, one that is `kept`
+  ForceOrders<Number> orders{};      ///< of Waveform::orders alone
 
   [[nodiscard]] constexpr bool is_sine() const { return waveform == Waveform::sine; }
+  [[nodiscard]] constexpr bool has_orders() const { return waveform == Waveform::orders; }
+  [[nodiscard]] constexpr bool is_in_pieces() const { return !is_sine() && !has_orders(); }
 
   friend bool operator==(const BasicForceShape&, const BasicForceShape&) = default;
 };
@@ -43,7 +47,10 @@ using ForceShape = BasicForceShape<double>;
 /// A shape with numbers of another type, that hold those of its own.
 template <class Number, class Other>
 [[nodiscard]] BasicForceShape<Number> with_numbers(const BasicForceShape<Other>& shape) {
-  return {shape.waveform, Number(shape.duty), Number(shape.rise), shape.table};
+  BasicForceShape<Number> same{shape.waveform, Number(shape.duty), Number(shape.rise), shape.table};
+  for (std::size_t i = 0; i < same.orders.of.size(); ++i)
+    same.orders.of[i] = {Number(shape.orders.of[i].in_phase), Number(shape.orders.of[i].quadrature)};
+  return same;
 }
 
 /// A piece of a shape, which begins at a phase, in turns, with s and ds/dtheta. On it s'' = -w^2 s with the w of the
@@ -53,8 +60,8 @@ struct ForcePiece {
   Number begin{}, value{}, slope{};
 };
 
-/// The pieces of a shape over a turn, in the order of their beginnings, which are the knots of the force. None of a
-/// sine.
+/// The pieces of a shape over a turn, in the order of their beginnings, which are the knots of the force. None of
+/// sines.
 template <class Number>
 class ForcePieces {
  public:
@@ -95,6 +102,7 @@ ForcePieces<Number>::ForcePieces(const BasicForceShape<Number>& shape) : table_(
   using Piece = ForcePiece<Number>;
   switch (shape.waveform) {
     case Waveform::sine:
+    case Waveform::orders:
       break;
     case Waveform::square:
       set(Piece{zero, one, zero}, Piece{duty, -one, zero});
@@ -146,18 +154,19 @@ auto ForcePieces<Number>::at(const Number& turns) const -> Place {
   return place;
 }
 
-/// w of a shape: s'' = -w^2 s, by the phase, on each of its pieces.
+/// w of a shape: s'' = -w^2 s, by the phase, on each of its pieces, and of a sine; 1 of a sum of sines.
 template <class Number>
 [[nodiscard]] Number swing_of(const BasicForceShape<Number>& shape) {
-  if (shape.is_sine()) return Number(1);
+  if (!shape.is_in_pieces()) return Number(1);
   return shape.waveform == Waveform::half_sine ? Number(1 / (2 * shape.duty)) : Number(0);
 }
 
-/// Largest |ds/dtheta| within a piece.
+/// Bound of |ds/dtheta| within a piece.
 template <class Number>
 [[nodiscard]] Number steepest_of(const BasicForceShape<Number>& shape) {
   using std::abs;
   if (shape.table != nullptr) return Number(shape.table->steepest());
+  if (shape.has_orders()) return shape.orders.most_of(1);
   const ForcePieces<Number> pieces(shape);
   Number most(0);
   for (std::size_t i = 0; i < pieces.size(); ++i)
@@ -251,6 +260,10 @@ template <class Number>
       return shape.duty == 0.5;
     case Waveform::table:
       return shape.table->is_odd_by_half();
+    case Waveform::orders:
+      for (std::size_t j = 2; j <= ForceOrders<double>::most; j += 2)
+        if (shape.orders.size(j) != 0) return false;
+      return true;
     default:
       return false;
   }

@@ -40,6 +40,28 @@ ForceTable::ForceTable(std::vector<Knot> knots) : knots_(std::move(knots)), is_o
   }
 }
 
+ForceTable::Harmonics ForceTable::harmonics(std::size_t count) const {
+  Harmonics found{peak_ * mean_, {}, 0.0};
+  double square = 0, told = found.mean * found.mean;
+  for (std::size_t i = 0; i < knots_.size(); ++i) {
+    const bool is_last = i + 1 == knots_.size();
+    const double from = knots_[i].turns, to = is_last ? 1.0 : knots_[i + 1].turns, begin = knots_[i].after,
+                 end = knots_[is_last ? 0 : i + 1].before;
+    square += (to - from) * (begin * begin + begin * end + end * end) / 3;
+    for (std::size_t j = 1; j <= count; ++j) {  // 2 int F e^{iwt}, by parts
+      const double w = 2 * std::numbers::pi * static_cast<double>(j), slope = (end - begin) / (to - from);
+      const auto first = sine_cosine_of_turns(static_cast<double>(j) * from),
+                 last = sine_cosine_of_turns(static_cast<double>(j) * to);
+      auto& [a, b] = found.orders.of[j - 1];
+      a += 2 * ((begin * first.cosine - end * last.cosine) / w + slope * (last.sine - first.sine) / (w * w));
+      b += 2 * ((end * last.sine - begin * first.sine) / w + slope * (last.cosine - first.cosine) / (w * w));
+    }
+  }
+  for (std::size_t j = 1; j <= count; ++j) told += std::pow(found.orders.size(j), 2) / 2;
+  found.left_out = std::max(0.0, 1 - told / square);
+  return found;
+}
+
 const ForceTable* kept(ForceTable table) {
   static std::mutex mutex;
   static std::deque<ForceTable> all;  // which never move

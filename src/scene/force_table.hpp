@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "scene/force_orders.hpp"
+
 namespace clatter {
 inline namespace scene {
 
@@ -26,6 +28,14 @@ class ForceTable {
   [[nodiscard]] double mean() const { return mean_; }            ///< of s
   [[nodiscard]] double steepest() const { return steepest_; }    ///< largest |ds/dtheta|
   [[nodiscard]] bool is_odd_by_half() const { return is_odd_; }  ///< s(theta + pi) = -s(theta)
+
+  /// Its mean and orders 1 ... `count`, in the unit of the rows, and the share of its mean square that they leave out.
+  struct Harmonics {
+    double mean;
+    ForceOrders<double> orders;
+    double left_out;
+  };
+  [[nodiscard]] Harmonics harmonics(std::size_t count) const;
 
   friend bool operator==(const ForceTable& one, const ForceTable& other) { return one.knots_ == other.knots_; }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,6 +12,12 @@
 
 namespace clatter {
 inline namespace scene {
+
+/// An order of a force: amplitude sin(j theta + phase).
+template <class Number>
+struct GivenOrder {
+  Number amplitude{0.0}, phase{0.0};
+};
 
 /// The numbers of a scene as its user gives them, in [scene], or in SI in [machine]: a mass m, its spring, damper and
 /// force, m X'' + c X' + K X = F sin(2 pi frequency t + phase) + L. There K, F, L and the frequency, in Hz, are the
@@ -32,17 +40,28 @@ struct BasicGivenScene : BasicScene<Number> {
   /// Period of the free motion that the start lies on, in place of x0 and v0 (eq. 36); NaN: these are the start.
   Number start_period{std::numeric_limits<double>::quiet_NaN()};
   Number force_factor{1.0};  ///< by which the forces of a table are multiplied, any finite
-  bool is_si = false;        ///< given in [machine]
+  Number mean_force{0.0};    ///< of a table of which orders are taken, in the unit of the load; also times that
+  /// Orders 2 ... 8 of a force of `Waveform::orders`, in the unit of the oscillator's forcing, which is the first one.
+  std::array<GivenOrder<Number>, ForceOrders<Number>::most - 1> orders{};
+  bool is_si = false;  ///< given in [machine]
 
   BasicGivenScene() = default;
   explicit BasicGivenScene(const BasicScene<Number>& scene) : BasicScene<Number>(scene) {}
 };
 using GivenScene = BasicGivenScene<double>;
 
+/// Whether a force acts.
+template <class Number>
+[[nodiscard]] bool is_forced(const BasicGivenScene<Number>& given) {
+  return given.oscillator.forcing != 0 ||
+         (given.oscillator.shape.has_orders() &&
+          std::ranges::any_of(given.orders, [](const GivenOrder<Number>& order) { return order.amplitude != 0; }));
+}
+
 /// Whether a force or a shaking has a frequency.
 template <class Number>
 [[nodiscard]] bool has_frequency(const BasicGivenScene<Number>& given) {
-  const bool is_driven = given.oscillator.forcing != 0 || is_shaken(given.shaking) || move_by_themselves(given.stops);
+  const bool is_driven = is_forced(given) || is_shaken(given.shaking) || move_by_themselves(given.stops);
   return is_driven && given.oscillator.frequency != 0;
 }
 
@@ -63,14 +82,14 @@ template <class Number>
 
 namespace detail {
 
-/// A given scene in units that may be those of another one.
+/// A given scene, of which the force may have been computed, in units that may be those of another one.
 template <class Number, class Unit>
-[[nodiscard]] BasicScene<Number> in_units(const BasicGivenScene<Number>& given, const BasicUnits<Unit>& units) {
+[[nodiscard]] BasicScene<Number> in_units(BasicScene<Number> scene, const BasicGivenScene<Number>& given,
+                                          const BasicUnits<Unit>& units) {
   using std::abs, std::sqrt;
   const Unit& T = units.time;
   const Number& m = given.mass;
   const Number force = units.stiffness * (m / units.mass);  // that gives a unit of displacement to k = 1
-  BasicScene<Number> scene = given;
   auto& [h, f, nu, load, k, shape, paces] = scene.oscillator;
   f = f / force, load = load / force, k = k / force;
   scene.friction.kinetic = scene.friction.kinetic / force;
@@ -107,6 +126,22 @@ template <class Number, class Unit>
 
 namespace detail {
 
+/// Makes the force of an oscillator f s, s the sum of the orders that are given, over the sum of their sizes.
+template <class Number>
+void add_orders(const BasicGivenScene<Number>& given, BasicOscillator<Number>& oscillator) {
+  using std::abs, std::cos, std::sin;
+  auto& orders = oscillator.shape.orders.of;
+  Number sum = abs(oscillator.forcing);
+  for (const GivenOrder<Number>& order : given.orders) sum += abs(order.amplitude);
+  if (sum == 0) return;
+  orders[0].in_phase = oscillator.forcing / sum;
+  for (std::size_t i = 1; i < orders.size(); ++i) {
+    const auto& [amplitude, phase] = given.orders[i - 1];
+    orders[i] = {amplitude * cos(phase) / sum, amplitude * sin(phase) / sum};
+  }
+  oscillator.forcing = sum;
+}
+
 /// Adds the damping that a soft stop has by its restitution; that of 1, which is also that of a stop without one, is 0.
 template <class Number>
 void damp(const Number& kappa, const Number& restitution, Number& zeta) {
@@ -122,8 +157,11 @@ template <class Number, class Unit>
   using std::tan;
   const bool is_in_own_units = !given.is_si && units == BasicUnits<Unit>{};
   BasicScene<Number> scene = given;
-  if (!is_in_own_units) scene = detail::in_units(given, units);
-  if (scene.oscillator.shape.table != nullptr) scene.oscillator.forcing = scene.oscillator.forcing * given.force_factor;
+  const bool has_given_orders = scene.oscillator.shape.has_orders() && scene.oscillator.shape.orders.is_zero();
+  if (has_given_orders) detail::add_orders(given, scene.oscillator);
+  if (!is_always_zero(given.mean_force)) scene.oscillator.load += given.force_factor * given.mean_force;
+  if (!is_in_own_units) scene = detail::in_units(std::move(scene), given, units);
+  scene.oscillator.forcing = scene.oscillator.forcing * given.force_factor;
   if (is_always_zero(scene.oscillator.forcing)) scene.oscillator.shape = {};  // there is no force
   scene.oscillator.paces_stops = move_by_themselves(scene.stops);
   const auto complete = [](const Number& kinetic, Number& static_level) {  // 0: the static level isn't given

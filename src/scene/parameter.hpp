@@ -59,7 +59,8 @@ class Parameter {
   /// Whether a scene that is its own mirror image stays so if the parameter changes; a stiffness moves the equilibrium
   /// of a load.
   [[nodiscard]] constexpr bool keeps_symmetry() const {
-    return side() == Side::none && role() != Role::load && role() != Role::loose_load && role() != Role::force_shape;
+    return side() == Side::none && role() != Role::load && role() != Role::loose_load && role() != Role::force_shape &&
+           role() != Role::force_order;
   }
 
   friend constexpr bool operator==(Parameter, Parameter) = default;
@@ -79,7 +80,7 @@ class ParameterSet {
   [[nodiscard]] constexpr bool contains(Parameter parameter) const {
     return (rows_[parameter.index() / 64] & bit_of(parameter)) != 0;
   }
-  [[nodiscard]] constexpr bool empty() const { return rows_ == std::array<std::uint64_t, 2>{}; }
+  [[nodiscard]] constexpr bool empty() const { return rows_ == std::array<std::uint64_t, 3>{}; }
   [[nodiscard]] std::vector<Parameter> list() const;
 
  private:
@@ -87,8 +88,8 @@ class ParameterSet {
     return std::uint64_t{1} << parameter.index() % 64;
   }
 
-  static_assert(detail::table<double>.size() <= 128);
-  std::array<std::uint64_t, 2> rows_{};  ///< a bit each
+  static_assert(detail::table<double>.size() <= 192);
+  std::array<std::uint64_t, 3> rows_{};  ///< a bit each
 };
 
 /// Sets a number of a scene. A key of both stops sets that of each; `xs` and `gap` place them at -|value| and +|value|.
@@ -142,11 +143,10 @@ template <class Number, class Other>
 [[nodiscard]] BasicGivenScene<Number> with_numbers(const BasicGivenScene<Other>& given) {
   BasicGivenScene<Other> from = given;
   BasicGivenScene<Number> to;
-  to.is_si = given.is_si;
+  to.is_si = given.is_si, to.mean_force = Number(given.mean_force);
+  to.oscillator.shape = with_numbers<Number>(given.oscillator.shape);
   [&]<std::size_t... row>(std::index_sequence<row...>) { (detail::convert<row>(from, to), ...); }
   (std::make_index_sequence<detail::table<Number>.size()>{});
-  to.oscillator.shape.waveform = from.oscillator.shape.waveform;
-  to.oscillator.shape.table = from.oscillator.shape.table;
   const auto laws = laws_of<Number>(to);
   const auto laws_of_other = laws_of<Other>(from);
   for (std::size_t i = 0; i < laws.size(); ++i) laws[i]->table = laws_of_other[i]->table;

@@ -16,6 +16,7 @@ enum class Role : std::uint8_t {
   damping,       ///< of the damper, in one of several ways
   drive,         ///< amplitude of the force
   force_shape,   ///< of a force in pieces: share of the period of a part, or a factor
+  force_order,   ///< of a sine of a further order of the force: amplitude, or phase
   load,          ///< constant force
   shaking,       ///< amplitude of stops or base
   stop_motion,   ///< of one stop by itself: amplitude, or phase

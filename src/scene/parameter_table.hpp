@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "scene/loose_rows.hpp"
+#include "scene/order_rows.hpp"
 #include "scene/parameter_row.hpp"
 #include "scene/restitution_rows.hpp"
 #include "scene/stop_rows.hpp"
@@ -255,8 +256,8 @@ constexpr auto parameter_rows() {
           .place = at<Number, &Given::start_period>},
   };
   const auto by_speed = restitution_rows<Number>(), loose_by_speed = loose_restitution_rows<Number>();
-  return joined(before_stops, stop_rows<Number>(), by_speed[0], by_speed[1], by_speed[2], after_stops,
-                loose_rows<Number>(), loose_by_speed[0], loose_by_speed[1], loose_by_speed[2]);
+  return joined(before_stops, order_rows<Number>(), stop_rows<Number>(), by_speed[0], by_speed[1], by_speed[2],
+                after_stops, loose_rows<Number>(), loose_by_speed[0], loose_by_speed[1], loose_by_speed[2]);
 }
 
 }  // namespace scene

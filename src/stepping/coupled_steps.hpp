@@ -31,8 +31,8 @@ class CoupledSteps {
     const auto equation = [&](const Values& y, Values& rate, double s) {
       count(1);
       const double push = coupling.push(y[2], y[3]);
-      const auto [sine, cosine] = phase(any, start, s);
-      const double free = constants.acceleration(constants.from_equilibrium(anchor + y[0], anchor, y[0]), y[1], sine);
+      const double free =
+          constants.acceleration(constants.from_equilibrium(anchor + y[0], anchor, y[0]), y[1], phase(any, start, s));
       const double a = coupling.is_held ? 0.0 : free + push;
       rate = {y[1], a, y[3], load - push / coupling.ratio - a};
     };

@@ -162,7 +162,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   [[nodiscard]] static bool falls_at_once(const motion::ArcConstants<double, Of>& constants,
                                           const motion::Margin<double>& margin, const motion::Motion<double>& start) {
     if (!(margin.of(start) <= 0)) return false;
-    const double slope = margin.slope(start), rate = constants.f * constants.nu * start.cosine;
+    const double slope = margin.slope(start), rate = constants.f * constants.nu * constants.drive(start).cosine;
     return slope < 0 || (slope == 0 && start.v == 0 && margin.place * (start.a != 0 ? start.a : rate) < 0);
   }
 
@@ -210,10 +210,11 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   template <Effects Of>
   [[nodiscard]] double acceleration(const motion::ArcConstants<double, Of>& constants, const Values& y, double s) {
     this->count_evaluations(1);
-    const double sine = constants.f == 0           ? 0.0
-                        : constants.is_in_pieces() ? constants.phase_after(phase_, s).sine
-                                                   : std::sin(angle_ + constants.nu * s);
-    return constants.acceleration(constants.from_equilibrium(anchor_ + y[0], anchor_, y[0]), y[1], sine);
+    const double drive = constants.f == 0            ? 0.0
+                         : constants.shape.is_sine() ? std::sin(angle_ + constants.nu * s)
+                                                     : constants.drive(constants.phase_after(phase_, s)).sine;
+    const double y_balanced = constants.from_equilibrium(anchor_ + y[0], anchor_, y[0]);
+    return constants.equation().acceleration(y_balanced, y[1], drive);
   }
 
   [[nodiscard]] static Bernstein<double> constant(double value) {

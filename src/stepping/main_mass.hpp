@@ -151,11 +151,11 @@ class MainMass {
   template <class Of>
   [[nodiscard]] motion::Motion<Number> motion(const Of& constants, const motion::State<Number>& state,
                                               const Number& released = Number(0)) const {
-    const auto [sine, cosine] = phase(state);
+    const SineCosine<Number> phase = this->phase(state);
     const Number offset = state.from_stop == Side::none ? Number(0) : state.offset;
     const Number displacement = constants.from_equilibrium(state.x, anchor(state), offset);
-    const Number a = state.released ? released : constants.acceleration(displacement, state.v, sine);
-    return {offset, state.x, state.v, a, sine, cosine};
+    const Number a = state.released ? released : constants.acceleration(displacement, state.v, phase);
+    return {offset, state.x, state.v, a, phase.sine, phase.cosine};
   }
   /// The longest time after which a mass that a stop or a wall lets go, and that is back, may never have been let go:
   /// a force that touches zero differs from zero so long by no more than the rounding of its parts, some ulps of each.

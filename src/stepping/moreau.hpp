@@ -49,7 +49,7 @@ class Moreau : public StepVelocities<E> {
   template <class Observer>
   [[nodiscard]] Outcome advance(State& state, double end, std::int64_t origin, Observer& observer) {
     Stage<Moreau, Observer> stage(*this, state, end, origin, observer);
-    this->sine_ = this->phase(state).sine;
+    this->drive_ = this->constants().drive(this->phase(state)).sine;
     if constexpr (E.soft)
       if (state.within == Side::none) this->look_beyond(state, 0.0);  // a start beyond a soft stop's place is no touch
     if (!bounce_off(stage)) return Outcome::event_budget;
@@ -124,7 +124,7 @@ class Moreau : public StepVelocities<E> {
       else
         move(mass, stage, step.length, step.v, beside);
     }
-    this->sine_ = step.sine;
+    this->drive_ = step.drive;
     return affordable;
   }
 
@@ -305,7 +305,7 @@ class Moreau : public StepVelocities<E> {
     const int sign = sign_of(wall);
     const double before = sign * w > 0 ? w : meeting.w_free;  // leaving too slowly: pushed back by the forces
     const double rebound = walls().rule.law(wall).after(before), until = this->until_impulse(alone);
-    const double a = alone.holds(state.v) ? 0.0 : this->force(mass.constants(), state.x, state.v, alone.sine);
+    const double a = alone.holds(state.v) ? 0.0 : this->force(mass.constants(), state.x, state.v, alone.drive);
     const bool flies = -2 * sign * rebound > sign * (load - a) * alone.length && sign * w > 0;
     const double after = flies ? rebound + 0.0 : 0.0;
     const Step struck = this->step_of(both, state, turns, walls().rule.share() * (w - after));
@@ -322,7 +322,7 @@ class Moreau : public StepVelocities<E> {
       struck.stands ? hold(of, stage, struck, left, then) : drift(of, stage, left, then);
     };
     flies ? go_on(mass) : go_on(both);
-    this->sine_ = alone.sine;
+    this->drive_ = alone.drive;
     return affordable;
   }
 

@@ -27,7 +27,7 @@ class StepVelocities : public ThetaSteps<E> {
 
   /// A step of the main mass, alone or with the loose one.
   struct Step {
-    double length, sine;     ///< in tau; sine of the forcing phase at its end
+    double length, drive;    ///< in tau; s of the force at its end
     double free, v;          ///< velocities at its end, without the impulse of a stop and with it
     Side stop = Side::none;  ///< a rigid one, which the mass meets, or presses
     bool stands = false;     ///< friction holds the mass
@@ -44,7 +44,7 @@ class StepVelocities : public ThetaSteps<E> {
     return with_oscillator(mass, state, [&](const auto& constants) {
       const auto end = this->step_end(constants, state, turns);
       const double v = rubbed(mass, end.momentum + impulse, state.v, end.length) / end.mass;
-      Step step{end.length, end.sine, v, v};
+      Step step{end.length, end.drive, v, v};
       step.stands = mass.is_rough() && state.v == 0 && v == 0;
       const Side side = step.stands ? Side::none : active(state, end.length);
       const auto stop = motion::stop_at<double>(this->stops(), side);
@@ -109,7 +109,7 @@ class StepVelocities : public ThetaSteps<E> {
       const double way = step.free != 0 ? step.free : state.v;
       if (!mass.is_rough() || way == 0) return;
       this->with_oscillator(mass, state, [&](const auto& constants) {
-        const double push = this->force(constants, state.x, 0.0, this->sine_),
+        const double push = this->force(constants, state.x, 0.0, this->drive_),
                      rubs = std::copysign(mass.slips().kinetic, way);
         const bool turns_back = std::exchange(slid_, way) * way < 0 && (push - rubs) * (push + rubs) > 0;
         if (turns_back && state.v * way <= 0) stage.show_reversal(push + rubs, push - rubs);
@@ -220,7 +220,7 @@ class StepVelocities : public ThetaSteps<E> {
   [[nodiscard]] double rebound(const Constants& constants, const motion::Stop<double>& stop, double v,
                                const Step& step) const {
     const double after = stop.law.after(arriving(stop, v, step)),
-                 pressed = stop.into(this->force(constants, stop.position, 0.0, step.sine));
+                 pressed = stop.into(this->force(constants, stop.position, 0.0, step.drive));
     return 2 * -stop.into(after) > pressed * step.length && stop.into(v) > 0 ? after + 0.0 : 0.0;  // no negative zero
   }
 

@@ -27,27 +27,27 @@ class ThetaSteps : public IntegratorBase<double, E> {
   }
 
   template <class Constants>
-  [[nodiscard]] static double force(const Constants& constants, double x, double v, double sine) {
-    return constants.acceleration(x - constants.equilibrium, v, sine);
+  [[nodiscard]] static double force(const Constants& constants, double x, double v, double drive) {
+    return constants.equation().acceleration(x - constants.equilibrium, v, drive);
   }
 
   /// The end of a step: the velocity is the momentum over the mass, which has the implicit parts of the forces.
   struct StepEnd {
-    double length, sine;    ///< in tau; sine of the forcing phase
+    double length, drive;   ///< in tau; s of the force
     double momentum, mass;  ///< over the mass that moves
   };
   template <class Constants>
   [[nodiscard]] StepEnd step_end(const Constants& constants, const motion::State<double>& state, double turns) {
     const double length = (turns - state.phase_turns) * this->period(), part = theta_ * length;
     const double end = this->start_turns() + turns;
-    const double sine = constants.f == 0           ? 0.0
-                        : constants.is_in_pieces() ? constants.phase_at(end).sine
-                                                   : std::sin(2 * pi<double>() * end);
-    const double at_begin = force(constants, state.x, state.v, sine_);
+    const double drive = constants.f == 0            ? 0.0
+                         : constants.shape.is_sine() ? std::sin(2 * pi<double>() * end)
+                                                     : constants.drive(constants.phase_at(end)).sine;
+    const double at_begin = force(constants, state.x, state.v, drive_);
     const double at_end = force(constants, state.x + (length - part) * state.v, 0.0,
-                                sine);  // without the term in v there, which is implicit
+                                drive);  // without the term in v there, which is implicit
     this->count_evaluations(1);
-    return {length, sine, state.v + (length - part) * at_begin + part * at_end,
+    return {length, drive, state.v + (length - part) * at_begin + part * at_end,
             1 + part * (2 * constants.h + constants.spring(part))};
   }
   /// The change of a place in a time, with the velocities at its ends.
@@ -68,7 +68,7 @@ class ThetaSteps : public IntegratorBase<double, E> {
   }
 
   double step_, theta_;
-  double sine_ = 0.0;  ///< of the force, at the state
+  double drive_ = 0.0;  ///< s of the force, at the state
 };
 
 }  // namespace clatter::stepping

@@ -64,7 +64,8 @@ bool is_always_symmetric(const Sweep& sweep) {
   const bool varies = std::ranges::any_of(sweep.dimensions, [](const Dimension& dimension) {
     return std::ranges::any_of(dimension, [](const Axis& axis) { return !axis.parameter.keeps_symmetry(); });
   });
-  const bool is_odd = is_odd_by_half(sweep.problem.oscillator.shape);  // the first point may have no force
+  const ForceShape& shape = sweep.problem.oscillator.shape;  // the first point may have no force
+  const bool is_odd = !shape.has_orders() && is_odd_by_half(shape);
   return !varies && is_odd && mirror_centre(problem_at(sweep, 0)) == 0.0;
 }
 
@@ -72,7 +73,7 @@ bool is_always_symmetric(const Sweep& sweep) {
 bool drives(const Dimension& dimension) {
   return std::ranges::any_of(dimension, [](const Axis& axis) {
     const Role role = axis.parameter.role();
-    return role == Role::drive || role == Role::shaking || role == Role::stop_motion;
+    return role == Role::drive || role == Role::force_order || role == Role::shaking || role == Role::stop_motion;
   });
 }
 

@@ -6,6 +6,7 @@ import tempfile
 import unittest
 
 import numpy as np
+from force_scenes import ORDERS
 from restitution_scenes import SPEEDS
 from scene_runs import STEADY, Program, keys_of
 
@@ -20,10 +21,12 @@ SIDES = (-2, -1, 1, 2)
 LEVELS = ("friction", "friction_static", "loose_friction", "loose_friction_static")
 OF_SCENE = {"h": (0, -1), "nu": (0, -1), "stiffness": (0, -2)}
 OF_SCENE |= dict.fromkeys(("f", "force_factor", "load", *LEVELS, "loose_load"), (1, -2))
+OF_SCENE |= dict.fromkeys((f"f_{j}" for j in ORDERS), (1, -2))
 OF_MACHINE = {
     "damping": (0, -1, 1),
     "frequency": (0, -1, 0),
     **dict.fromkeys(("force", "force_factor", "load", *LEVELS), (1, -2, 1)),
+    **dict.fromkeys((f"force_{j}" for j in ORDERS), (1, -2, 1)),
     "stiffness": (0, -2, 1),
     **dict.fromkeys(("mass", "loose_mass"), (0, 0, 1)),
     "loose_load": (1, -2, 0),

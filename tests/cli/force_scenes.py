@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 SHAPES = ("square", "pulse", "triangle", "trapezoid", "sawtooth", "half-sine")
 WITH_DUTY = ("square", "pulse", "half-sine")
+ORDERS = (2, 3, 5)  # that scenes may have beside the first
 
 
 @dataclass
@@ -17,13 +18,29 @@ class Force:
     force_duty: float = 0.5
     force_rise: float = 0.25
     force_table: str = ""  # of the shape "table": rows of a share of the period and the force, the first at 0
+    f_2: float = 0.0
+    f_3: float = 0.0
+    f_5: float = 0.0
+    phase_2: float = 0.0
+    phase_3: float = 0.0
+    phase_5: float = 0.0
+
+    def orders(self):
+        """Further ones of a sine: number, size and phase."""
+        every = [(j, getattr(self, f"f_{j}"), getattr(self, f"phase_{j}")) for j in ORDERS]
+        return [order for order in every if order[1]]
+
+    def pace(self):
+        """The fastest frequency of its parts, over that of the force."""
+        swing = 1 / (2 * self.force_duty) if self.force_shape == "half-sine" else 1
+        return max([swing, *(j for j, _, _ in self.orders())])
 
     def keys_of_force(self):
-        """The keys that its shape has; none of a sine."""
+        """The keys that its shape has; none of a single sine."""
         if self.force_shape == "table":
             return ["force_table"]
         if self.force_shape == "sine":
-            return []
+            return [key for j, _, _ in self.orders() for key in (f"f_{j}", f"phase_{j}")]
         duty = ["force_duty"] if self.force_shape in WITH_DUTY else []
         return ["force_shape", *duty, *(["force_rise"] if self.force_shape == "trapezoid" else [])]
 
@@ -54,7 +71,11 @@ class Force:
         if self.force_shape in ("sine", "half-sine"):
             w = 1.0 if self.force_shape == "sine" else 1 / (2 * self.force_duty)
             size = 1.0 if self.force_shape == "sine" or inside < self.force_duty else 0.0
-            return [size * w**k * math.sin(2 * math.pi * w * t + k * math.pi / 2) for k in range(count)]
+            waves = [(w, size, 0.0), *((j, size / self.f, phase) for j, size, phase in self.orders())]
+            return [
+                sum(size * w**k * math.sin(2 * math.pi * w * t + phase + k * math.pi / 2) for w, size, phase in waves)
+                for k in range(count)
+            ]
         slope = 0.0  # by turns
         if self.force_shape in WITH_DUTY:
             s = 1.0 if inside < self.force_duty else -1.0 if self.force_shape == "square" else 0.0
@@ -78,6 +99,13 @@ def any_table(draw):
     return "period, f" + "".join(f"; {share!r}, {force!r}" for share, force in rows)
 
 
+def any_orders(draw):
+    """Sizes and phases of one, two or three further orders."""
+    some = draw.sample(ORDERS, draw.randrange(1, 4))
+    sizes = {f"f_{j}": draw.choice([-1, 1]) * draw.uniform(0.1, 0.8) for j in some}
+    return {**sizes, **{f"phase_{j}": draw.choice([0.0, draw.uniform(-3, 3)]) for j in some}}
+
+
 def driven(scenes, seed):
     """The scenes under forces of other shapes, none of them shaken."""
     draw = random.Random(f"force {seed}")
@@ -90,5 +118,7 @@ def driven(scenes, seed):
         shaped = {"force_shape": shape, "force_duty": duty, "force_rise": rise}
         if draw.random() < 0.3:
             shaped = {"force_shape": "table", "force_table": any_table(draw)}
+        elif draw.random() < 0.3:
+            shaped = any_orders(draw)
         changed.append(scene.changed(**shaped, **still))
     return changed

@@ -6,8 +6,7 @@ import math
 
 def flown(s, tau, x, v, time):
     """Displacement and velocity after a free flight, by its Taylor series in steps."""
-    swing = s.nu / (2 * s.force_duty) if s.force_shape == "half-sine" else s.nu
-    rate = max(1.0, math.sqrt(abs(s.stiffness)), 2 * s.h, swing)
+    rate = max(1.0, math.sqrt(abs(s.stiffness)), 2 * s.h, s.nu * s.pace())
     turn, first = 2 * math.pi / s.nu, s.phase / (2 * math.pi)  # the period of the force, and its phase at tau = 0
     begin, end = tau / turn + first, (tau + time) / turn + first
     turns = range(math.floor(begin), math.ceil(end) + 1)

@@ -5,10 +5,11 @@ import math
 import random
 from dataclasses import dataclass
 
-from force_scenes import Force
+from force_scenes import ORDERS, Force
 from restitution_scenes import LAWS, SPEEDS, Laws, logarithmic
 
 INF = math.inf
+SIZES = ("f", *(f"f_{j}" for j in ORDERS))  # of the force
 
 
 @dataclass
@@ -52,7 +53,7 @@ class Scene(Laws, Force):
         def swapped(name):
             return getattr(self, name + "_upper"), getattr(self, name + "_lower")
 
-        changes = {name: 0.0 - getattr(self, name) for name in ("f", "load", "x0", "v0")}
+        changes = {name: 0.0 - getattr(self, name) for name in (*SIZES, "load", "x0", "v0")}
         changes |= {name: -getattr(self, name) for name in ("stop_amplitude", "base_amplitude")}
         changes |= {name: 0.0 - getattr(self, name) for name in ("loose_load", "loose_x0", "loose_v0")}
         changes["stop_lower"], changes["stop_upper"] = -self.stop_upper, -self.stop_lower
@@ -62,7 +63,7 @@ class Scene(Laws, Force):
         return self.changed(**changes)
 
     def scaled(self, size):
-        names = ("f", "load", "x0", "v0", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude")
+        names = (*SIZES, "load", "x0", "v0", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude")
         names += ("friction", "friction_static")
         names += ("loose_lower", "loose_upper", "loose_load", "loose_x0", "loose_v0", *SPEEDS)
         return self.changed(**{name: size * getattr(self, name) for name in names}, **self.tables_in(size))
@@ -74,7 +75,7 @@ class Scene(Laws, Force):
     def in_time(self, faster):
         """The same motion in units of time that are shorter by so much."""
         changes = {name: getattr(self, name) / faster for name in ("h", "nu", "v0", "loose_v0", *SPEEDS)}
-        squares = ("f", "load", "stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
+        squares = (*SIZES, "load", "stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
         squares += ("friction", "friction_static", "loose_load")
         changes |= {name: getattr(self, name) / faster**2 for name in squares}
         return self.changed(**changes, **self.tables_in(1 / faster))

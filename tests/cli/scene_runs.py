@@ -62,6 +62,8 @@ def machine_keys(mass):
             values["force_table"] = values["force_table"].replace(", f;", ", force (N);")
         for key, of_scene in ((force, "f"), ("stiffness", "stiffness"), ("load", "load")):
             values[key] = mass * values.pop(of_scene)
+        for key in [key for key in values if key.startswith("f_")]:
+            values[f"force_{key[2:]}"] = mass * values.pop(key)
         for key in ("stop_stiffness_lower", "stop_stiffness_upper", "friction", "friction_static", "loose_mass"):
             if key in values:
                 values[key] *= mass

@@ -26,6 +26,15 @@ namespace clatter::hard {
   return rows;
 }
 
+/// The orders of a force in the simulator's terms.
+[[nodiscard]] inline std::vector<ForceWave> waves_of(const ForceOrders<double>& orders) {
+  std::vector<ForceWave> waves;
+  for (std::size_t j = 1; j <= orders.of.size(); ++j)
+    if (!orders.is_zero(j))
+      waves.push_back({static_cast<int>(j), orders.of[j - 1].in_phase, orders.of[j - 1].quadrature});
+  return waves;
+}
+
 /// A scene in the simulator's terms.
 [[nodiscard]] inline MachineScene as_machine(const Scene& scene) {
   const auto& [oscillator, stops, start, shaking, friction, loose] = scene;
@@ -39,6 +48,7 @@ namespace clatter::hard {
           .duty = oscillator.shape.duty,
           .rise = oscillator.shape.rise,
           .table = rows_of(oscillator.shape.table),
+          .waves = waves_of(oscillator.shape.orders),
           .friction = friction.kinetic,
           .static_friction = friction.static_level,
           .lower = stops.lower,
@@ -155,6 +165,7 @@ inline void keep_at_moving_stops(MachineScene& s, const MachineScene& given) {
   if (given.shape != ForceShape::sine) {
     nudge(s.duty), nudge(s.rise);
     s.duty = std::min(1.0, s.duty), s.rise = std::min(0.5, s.rise);
+    for (ForceWave& wave : s.waves) nudge(wave.sine), nudge(wave.cosine);
   }
   nudge(s.shake_lower), nudge(s.shake_upper);
   for (double* phase : {&s.shake_phase_lower, &s.shake_phase_upper})

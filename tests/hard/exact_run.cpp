@@ -167,7 +167,7 @@ ExactRun flight_with(const Case& one) {
   const auto& constants = integrator.constants();
   const FiftyDigits x = one.scene.start.displacement, v = one.scene.start.velocity, none = 0;
   const auto [sine, cosine] = integrator.phase({});
-  const FiftyDigits a = constants.acceleration(constants.from_equilibrium(x, x, none), v, sine);
+  const FiftyDigits a = constants.acceleration(constants.from_equilibrium(x, x, none), v, {sine, cosine});
   const motion::Arc<FiftyDigits, E.arc()> arc(constants, {none, x, v, a, sine, cosine});
   const motion::Motion<FiftyDigits> end = arc.at(FiftyDigits(one.duration));
   return {.x = end.x, .v = end.v};

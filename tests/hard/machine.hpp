@@ -31,6 +31,12 @@ enum class ForceShape : std::uint8_t {
   sawtooth,   ///< theta/pi - 1, from -1 to 1
   half_sine,  ///< sin(theta/(2 duty)) on the first `duty` of the period, else 0
   table,      ///< straight lines between rows
+  orders,     ///< a sum of sines of several orders
+};
+/// sine sin(order theta) + cosine cos(order theta)
+struct ForceWave {
+  int order;
+  double sine, cosine;
 };
 /// A row of a measured force.
 struct ForceRow {
@@ -52,6 +58,7 @@ struct MachineScene {
   ForceShape shape = ForceShape::sine;
   double duty = 0.5, rise = 0.25;            ///< of the shapes that have them: 0 < duty <= 1, 0 < rise <= 1/2
   std::vector<ForceRow> table{};             ///< of the shape that has one
+  std::vector<ForceWave> waves{};            ///< of the shape that has orders
   double friction = 0, static_friction = 0;  ///< levels; the static one is no less than the other
   double lower = -no_stop, upper = no_stop;  ///< places of the stops; infinite: none
   double restitution_lower = 1, restitution_upper = 1;

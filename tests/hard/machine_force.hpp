@@ -54,6 +54,8 @@ struct ForcePiece {
       return {{.from = 0, .level = 0, .height = 1, .pace = 1 / (2 * duty)}, {.from = duty, .level = 0}};
     case ForceShape::table:
       return lines_of(scene.table);
+    case ForceShape::orders:
+      return {{.from = 0, .level = 0}};
   }
   return {};
 }
@@ -64,7 +66,8 @@ class PeriodicForce {
  public:
   explicit PeriodicForce(const MachineScene& scene)
       : size_(scene.forcing), frequency_(scene.frequency), phase_(scene.phase), pieces_(pieces_of(scene)) {
-    if (scene.shape == ForceShape::sine) return;
+    if (scene.shape == ForceShape::orders) waves_ = scene.waves;
+    if (scene.shape == ForceShape::sine || scene.shape == ForceShape::orders) return;
     periods_ = floorq(phase_ / turn_ - pieces_[0].from);
     while (end_of_piece() <= phase_) go_to_next();
     set_knot(), reached(0);
@@ -79,7 +82,11 @@ class PeriodicForce {
     return time;
   }
   /// The fastest rate within the piece.
-  [[nodiscard]] Quad rate() const { return size_ != 0 ? frequency_ * pieces_[piece_].pace : 0; }
+  [[nodiscard]] Quad rate() const {
+    Quad pace = pieces_[piece_].pace;
+    for (const ForceWave& wave : waves_) pace = std::max(pace, Quad(wave.order));
+    return size_ != 0 ? frequency_ * pace : 0;
+  }
   /// Its Taylor series over a step from an instant within the piece, by parts of the step.
   [[nodiscard]] Series series(Quad time, Quad step) const {
     const auto& [from, level, slope, height, pace] = pieces_[piece_];
@@ -94,6 +101,15 @@ class PeriodicForce {
     }
     force[0] += size_ * (level + slope * since / turn_);
     force[1] += size_ * slope * frequency_ * step / turn_;
+    for (const auto& [order, of_sine, of_cosine] : waves_) {
+      const Quad angle = order * (frequency_ * time + phase_), s = sinq(angle), c = cosq(angle);
+      const std::array<Quad, 2> even{of_sine * s + of_cosine * c, of_sine * c - of_cosine * s};
+      Quad power = size_;
+      for (std::size_t n = 0; n < terms; ++n) {
+        force[n] += (n % 4 < 2 ? 1 : -1) * power * even[n % 2];
+        power *= order * frequency_ * step / number(n + 1);
+      }
+    }
     return force;
   }
   [[nodiscard]] Quad at(Quad time) const { return series(time, 0)[0]; }
@@ -114,6 +130,7 @@ class PeriodicForce {
   Quad turn_ = 2 * acosq(-1);
   Quad size_, frequency_, phase_;
   std::vector<ForcePiece> pieces_;
+  std::vector<ForceWave> waves_{};
   std::size_t piece_ = 0;  ///< the one that holds
   Quad periods_ = 0;       ///< the period that it is of
   Quad knot_ = std::numeric_limits<double>::infinity();

@@ -27,6 +27,7 @@ std::vector<MachineScene> each_shape() {
     for (const double duty : {0.5, 0.1, 0.9, 1.0}) scenes.push_back({.shape = shape, .duty = duty});
   scenes.push_back({.shape = ForceShape::table, .table = {{0, 0.5, -0.25}, {0.125, 1, 1}, {0.625, -0.5, 0.75}}});
   scenes.push_back({.shape = ForceShape::table, .table = {{0, 1, -1}}});
+  scenes.push_back({.shape = ForceShape::orders, .waves = {{1, 0.5, 0.1}, {3, -0.2, 0.3}, {8, 0.1, 0}}});
   return scenes;
 }
 /// The shape at a share of the period, 0 ... 1.
@@ -55,6 +56,12 @@ Real shape_at(const MachineScene& scene, Real share) {
       const Real from = rows[i].share, until = i + 1 < rows.size() ? rows[i + 1].share : 1.0,
                  end = i + 1 < rows.size() ? rows[i + 1].before : rows[0].before;
       return std::lerp(Real(rows[i].after), end, (share - from) / (until - from));
+    }
+    case ForceShape::orders: {
+      Real sum = 0;
+      for (const auto& [order, sine, cosine] : scene.waves)
+        sum += sine * std::sin(2 * pi * order * share) + cosine * std::cos(2 * pi * order * share);
+      return sum;
     }
   }
   return 0;
@@ -93,6 +100,7 @@ std::vector<Change> changes_of(const MachineScene& scene, bool is_first) {
   const Real duty = scene.duty, rise = scene.rise, steep = 2 / rise;
   switch (scene.shape) {
     case ForceShape::sine:
+    case ForceShape::orders:
       break;
     case ForceShape::square:
       return {{.share = 0, .jump = is_first ? 1.0L : 2.0L}, {.share = duty, .jump = -2}};
@@ -150,7 +158,7 @@ struct Answers {
 
 TEST(Machine, answers_each_jump_and_bend_of_the_force) {
   for (MachineScene scene : each_shape()) {
-    if (scene.shape == ForceShape::sine) continue;
+    if (scene.shape == ForceShape::sine || scene.shape == ForceShape::orders) continue;
     scene.damping = 0.1, scene.forcing = 1, scene.frequency = 0.8;
     const Real period = 2 * pi / scene.frequency;
     const Answers answers{scene.damping, scene.frequency / (2 * Real(scene.duty))};
@@ -164,6 +172,18 @@ TEST(Machine, answers_each_jump_and_bend_of_the_force) {
       const Real rounding = scene.rise < 1e-8 ? 1e-9L : 1e-15L;
       expect_near(run_of(scene, time).x, x, rounding);
     }
+  }
+}
+
+TEST(Machine, answers_a_sum_of_sines_by_the_sum_of_its_answers) {
+  const MachineScene scene{.damping = 0.1, .forcing = 1.3, .frequency = 0.8, .phase = 0.4};
+  for (const int order : {2, 5}) {
+    const double turned = order * scene.phase;
+    MachineScene both = scene, alone = scene;
+    both.shape = ForceShape::orders, both.waves = {{1, 1, 0}, {order, 0.3, -0.2}};
+    alone.frequency *= order, alone.phase = turned + std::atan2(-0.2, 0.3), alone.forcing *= std::hypot(0.3, 0.2);
+    for (const double time : {0.5, 7.0, 33.0})
+      expect_near(run_of(both, time).x, run_of(scene, time).x + run_of(alone, time).x, 1e-14L);
   }
 }
 

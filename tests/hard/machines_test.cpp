@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "hard/any_force_in_pieces.hpp"
+#include "hard/any_force_orders.hpp"
 #include "hard/any_law_of_speed.hpp"
 #include "hard/any_machine.hpp"
 #include "hard/any_moving_stops.hpp"
@@ -307,6 +308,12 @@ TEST(Machines, under_a_force_in_pieces_are_told_as_taylor_series_tell_them) {
   expect_told_as_by_taylor_series({"soft walls, in pieces", in_pieces<any_soft_walled_machine>, 5});
 }
 
+TEST(Machines, under_a_sum_of_sines_are_told_as_taylor_series_tell_them) {
+  expect_told_as_by_taylor_series({"combined, of orders", of_orders<any_machine>, 10});
+  expect_told_as_by_taylor_series({"rubbing, of orders", of_orders<any_rubbing_machine>, 5});
+  expect_told_as_by_taylor_series({"soft walls, of orders", of_orders<any_soft_walled_machine>, 5});
+}
+
 TEST(Machines, of_which_stops_move_by_themselves_are_told_as_taylor_series_tell_them) {
   expect_told_as_by_taylor_series({"moving stops", any_moving_stops, 60});
 }
@@ -314,6 +321,11 @@ TEST(Machines, of_which_stops_move_by_themselves_are_told_as_taylor_series_tell_
 TEST(Machines, under_a_force_in_pieces_keep_their_energy_but_for_work_and_losses) {
   expect_balance({"combined, in pieces", in_pieces<any_machine>, 100});
   expect_balance({"rubbing, in pieces", in_pieces<any_rubbing_machine>, 100});
+}
+
+TEST(Machines, under_a_sum_of_sines_keep_their_energy_but_for_work_and_losses) {
+  expect_balance({"combined, of orders", of_orders<any_machine>, 100});
+  expect_balance({"rubbing, of orders", of_orders<any_rubbing_machine>, 100});
 }
 
 TEST(Machines, with_soft_walls_keep_their_energy_but_for_work_and_losses) {

@@ -5,6 +5,7 @@
 
 #include "hard/any_carrying_scene.hpp"
 #include "hard/any_force_in_pieces.hpp"
+#include "hard/any_force_orders.hpp"
 #include "hard/any_law_of_speed.hpp"
 #include "hard/any_sliding_scene.hpp"
 #include "hard/told_scenes.hpp"
@@ -28,6 +29,12 @@ TEST(ScenesInPieces, that_slide_are_told_event_by_event_as_taylor_series_tell_th
 }
 TEST(ScenesInPieces, that_carry_a_loose_mass_are_told_event_by_event_as_taylor_series_tell_them) {
   compare({"carrying, in pieces", in_pieces<any_carrying_scene>, 20});
+}
+TEST(ScenesOfOrders, that_slide_are_told_event_by_event_as_taylor_series_tell_them) {
+  compare({"sliding, of orders", of_orders<any_sliding_scene>, 60});
+}
+TEST(ScenesOfOrders, that_carry_a_loose_mass_are_told_event_by_event_as_taylor_series_tell_them) {
+  compare({"carrying, of orders", of_orders<any_carrying_scene>, 20});
 }
 TEST(CarryingScenes, of_which_the_restitution_depends_on_the_speed_are_told_as_taylor_series_tell_them) {
   compare({"carrying, by speed", by_speed<any_carrying_scene>, 15}, 0.8);

@@ -20,8 +20,8 @@ FiftyDigits time_of_all_flights(const ArcConstants<FiftyDigits, E>& constants, c
   while (speed > 1e-20 * w) {  // the rest takes 1e-20 of the time
     const auto [sine, cosine] = sine_cosine_of_turns(phase);
     const FiftyDigits x = stop.position, v = -speed;
-    const Arc<FiftyDigits, E> arc(constants,
-                                  {0, x, v, constants.acceleration(x - constants.equilibrium, v, sine), sine, cosine});
+    const Arc<FiftyDigits, E> arc(
+        constants, {0, x, v, constants.acceleration(x - constants.equilibrium, v, {sine, cosine}), sine, cosine});
     const auto contact = next_contact(arc, stops, FiftyDigits(1));
     total += contact.elapsed;
     phase += contact.elapsed * constants.nu / (2 * pi<FiftyDigits>());

@@ -46,8 +46,8 @@ TEST(Contact, agrees_with_a_dense_scan_on_random_scenes) {
     contacts += contact.side != Side::none;
     with_any_stops(o, [&]<Effects effects>() {
       const ArcConstants<double, effects.arc()> constants(o);
-      const Arc<double, effects.arc()> arc(constants,
-                                           {0, x, v, constants.acceleration(x - constants.equilibrium, v, 0.0), 0, 1});
+      const Arc<double, effects.arc()> arc(
+          constants, {0, x, v, constants.acceleration(x - constants.equilibrium, v, {0.0, 1.0}), 0, 1});
       for (double s = 0; s < contact.elapsed; s += 1e-3) {
         const double at = arc.at(s).x;
         EXPECT_TRUE(at >= stops.lower - 1e-14 && at <= stops.upper + 1e-14) << "scene " << scene << ", s = " << s;

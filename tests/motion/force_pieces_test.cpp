@@ -100,11 +100,11 @@ TEST(ForceInPieces, bound_of_the_sixth_derivative_holds) {
       const auto [sine, cosine] = constants.phase_at(random.uniform(0, 1));
       Motion<double> m{0, random.uniform(-1, 1), random.uniform(-1, 1), 0, sine, cosine};
       if (random.happens(0.5)) m.x = constants.equilibrium, m.v = 0;  // so that all of it is the response
-      m.a = constants.acceleration(m.x - constants.equilibrium, m.v, m.sine);
+      m.a = constants.acceleration(m.x - constants.equilibrium, m.v, {m.sine, m.cosine});
       const Arc<double, E> arc(constants, m);
       const double span = random.uniform(0, 2) / constants.rate, bound = sixth_bound(constants, arc.start(), span, 0);
       const auto within = arc.at(random.uniform(0, span));
-      const auto d = constants.equation().derivatives(within.v, within.a, within.sine, within.cosine);
+      const auto d = constants.derivatives(within);
       EXPECT_LE(std::abs(d.d6) * std::pow(span, 6), bound * (1 + 1e-9) + 1e-12) << text(o);
     });
   }
@@ -135,6 +135,7 @@ double shape(const ForceShape& of, double turns) {
       return std::lerp(knots[i].after, knots[is_last ? 0 : i + 1].before, share) / of.table->peak();
     }
     case Waveform::sine:
+    case Waveform::orders:
       break;
   }
   return std::sin(2 * pi * t);

@@ -44,7 +44,8 @@ FiftyDigits time_of_all_flights(const Rubbing& rubbing, double w) {
     const Constants& constants = slips.towards(side);
     const FiftyDigits x = position + offset;
     const Arc<FiftyDigits, of_arcs> arc(
-        constants, {offset, x, v, constants.acceleration(x - constants.equilibrium, v, sine), sine, cosine}, position);
+        constants, {offset, x, v, constants.acceleration(x - constants.equilibrium, v, {sine, cosine}), sine, cosine},
+        position);
     const auto end = first_crossing(arc, std::array{margin}, FiftyDigits(1));
     total += end.elapsed, phase += end.elapsed * constants.nu / (2 * pi<FiftyDigits>());
     return end.motion;

@@ -12,8 +12,8 @@ inline Crossing<double> first_contact(const Oscillator& oscillator, const Stops&
                                       double horizon) {
   return with_any_stops(oscillator, [&]<Effects effects>() {
     const ArcConstants<double, effects.arc()> constants(oscillator);
-    const Arc<double, effects.arc()> arc(constants,
-                                         {0, x, v, constants.acceleration(x - constants.equilibrium, v, 0.0), 0, 1});
+    const Arc<double, effects.arc()> arc(
+        constants, {0, x, v, constants.acceleration(x - constants.equilibrium, v, {0.0, 1.0}), 0, 1});
     return next_contact(arc, stops, horizon);
   });
 }

@@ -84,7 +84,7 @@ TEST(Stiffness, the_enclosure_of_a_step_holds_the_motion) {
       const ArcConstants<N, effects.arc()> constants(o);
       const N x(random.uniform(-1, 1)), v(random.uniform(-1, 1));
       const Arc<N, effects.arc()> arc(
-          constants, {N(0), x, v, constants.acceleration(N(x - constants.equilibrium), v, N(0)), N(0), N(1)});
+          constants, {N(0), x, v, constants.acceleration(N(x - constants.equilibrium), v, {N(0), N(1)}), N(0), N(1)});
       const N step(random.logarithmic(0.05, 2) / std::max(1.0, std::sqrt(std::abs(k))));
       const auto end = arc.at(step);
       const N bound = hermite_error(sixth_bound(constants, arc.start(), step, 0));
@@ -107,8 +107,8 @@ TEST(Stiffness, reach_is_never_exceeded) {
     with_any_stops(o, [&]<Effects effects>() {
       const ArcConstants<double, effects.arc()> constants(o);
       const double x = random.uniform(-1, 1), v = random.uniform(-1, 1), span = random.logarithmic(0.1, 8);
-      const Arc<double, effects.arc()> arc(constants,
-                                           {0, x, v, constants.acceleration(x - constants.equilibrium, v, 0.0), 0, 1});
+      const Arc<double, effects.arc()> arc(
+          constants, {0, x, v, constants.acceleration(x - constants.equilibrium, v, {0.0, 1.0}), 0, 1});
       const double far = reach(constants, arc.start(), span);
       for (int part = 0; part <= 16; ++part)
         EXPECT_LE(std::abs(arc.at(span * part / 16).x - constants.equilibrium), far) << text(o) << " " << span;

@@ -8,7 +8,7 @@ namespace clatter::observables {
 template <class Number, Effects E>
 motion::Arc<Number, E> arc_of(const motion::ArcConstants<Number, E>& constants, double x, double v) {
   motion::Motion<Number> m{Number(0), Number(x), Number(v), Number(0), Number(6) / 10, Number(8) / 10};
-  m.a = constants.acceleration(m.x - constants.equilibrium, m.v, m.sine);
+  m.a = constants.acceleration(m.x - constants.equilibrium, m.v, {m.sine, m.cosine});
   return {constants, m};
 }
 

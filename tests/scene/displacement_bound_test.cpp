@@ -34,7 +34,7 @@ void fly(const Flight& flight, int most, See&& see) {
   with_effects({.damping = damping_of(o), .forcing = forcing_of(o), .load = true}, [&]<Effects effects>() {
     const motion::ArcConstants<double, effects.arc()> constants(o);
     const auto [sine, cosine] = flight.phase();
-    const double a = constants.acceleration(flight.x - o.load, flight.v, sine);
+    const double a = constants.acceleration(flight.x - o.load, flight.v, {sine, cosine});
     const motion::Arc<double, effects.arc()> arc(constants, {0, flight.x, flight.v, a, sine, cosine});
     const double fastest = std::max(o.frequency, 1.0), step = std::max(0.6 / fastest, flight.duration / most);
     for (double s = 0; s <= flight.duration; s += step) see(s, std::abs(arc.at(s).x - o.load));

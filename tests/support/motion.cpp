@@ -10,9 +10,9 @@ namespace {
 
 template <class Number, Effects E>
 motion::Motion<Number> first_motion(const motion::ArcConstants<Number, E>& constants, const ArcStart& start) {
-  const auto [sine, cosine] = constants.phase_at(Number(start.turns));
+  const SineCosine<Number> phase = constants.phase_at(Number(start.turns));
   const Number x(start.x), v(start.v);
-  return {Number(0), x, v, constants.acceleration(x - constants.equilibrium, v, sine), sine, cosine};
+  return {Number(0), x, v, constants.acceleration(x - constants.equilibrium, v, phase), phase.sine, phase.cosine};
 }
 
 }  // namespace

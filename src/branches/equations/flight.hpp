@@ -209,8 +209,8 @@ class Flights {
 
   /// Force on a mass that stands still at x.
   [[nodiscard]] Number force_at(const Number& x, const Number& phase) const {
-    using std::sin;
-    return constants_.force(sin(phase + lead_)) - constants_.spring(x);
+    using std::cos, std::sin;
+    return constants_.force({sin(phase + lead_), cos(phase + lead_)}) - constants_.spring(x);
   }
 
   /// The soft stop beyond whose position a mass halts.
@@ -315,8 +315,8 @@ class Flights {
                                                 const Number& v, const Number& phase) const {
     using std::cos, std::sin;
     const Number of_force = phase + lead_, sine = sin(of_force), cosine = cos(of_force);
-    return {constants,
-            {Number(0), x, v, constants.acceleration(Number(x - constants.equilibrium), v, sine), sine, cosine}};
+    const Number a = constants.acceleration(Number(x - constants.equilibrium), v, {sine, cosine});
+    return {constants, {Number(0), x, v, a, sine, cosine}};
   }
   /// At a release the acceleration is the difference of the levels of friction.
   template <Effects of>
@@ -336,7 +336,7 @@ class Flights {
                                                    const Number& phase) const {
     using std::cos, std::sin;
     const Number of_force = phase + lead_, sine = sin(of_force), cosine = cos(of_force), x = stop + offset;
-    const Number a = constants.acceleration(constants.from_equilibrium(x, stop, offset), v, sine);
+    const Number a = constants.acceleration(constants.from_equilibrium(x, stop, offset), v, {sine, cosine});
     return {constants, {offset, x, v, a, sine, cosine}, stop};
   }
 

@@ -131,7 +131,7 @@ class Energy::Observer {
     return force * way + stored;
   }
 
-  /// Over an arc, by panels in which neither v^2 nor v sin(theta) turns by more than a few radians. The forces of both
+  /// Over an arc, by panels in which neither v^2 nor v s(theta) turns by more than a few radians. The forces of both
   /// masses as one are shares of those on the main mass.
   template <class A>
   void integrate(const A& arc, double length) {
@@ -142,7 +142,7 @@ class Energy::Observer {
     const auto* stop = soft_stop_of(arc);
     evaluations_ += over_panels<20>(length, pace_of(constants), 2, [&](double s, double weight) {
       const motion::Motion<double> m = arc.at(s);
-      work += weight * m.v * m.sine, squares += weight * m.v * m.v;
+      work += weight * m.v * constants.drive(m).sine, squares += weight * m.v * m.v;
       if (stop != nullptr) impulse += weight * stop->force(stop->into(m.offset), stop->into(m.v));
     });
     force_work_ += mass * constants.f * work;
@@ -214,6 +214,7 @@ class Energy::Observer {
     const double constant = sign_of(rest.side) * constant_force_at(rest), force = std::abs(oscillator_.forcing);
     if (constant >= force) return pressing(rest, rest.time, rest.length);
     if (constant <= -force) return 0.0;
+    if (oscillator_.shape.has_orders()) return pressing_by_orders(rest, constant);
     if (!oscillator_.shape.is_sine()) return pressing_in_piece(rest, constant);
     // the force is a sine of a phase that begins with it, and presses between two of its zeros
     const double begin = phase_ + oscillator_.frequency * rest.time +
@@ -246,6 +247,21 @@ class Energy::Observer {
       sum += std::max(0.0, pressing(rest, rest.time + (ends[i] - begin) * period, (ends[i + 1] - ends[i]) * period));
     return sum;
   }
+  /// The same of a sum of sines.
+  [[nodiscard]] double pressing_by_orders(const motion::Event& rest, double constant) const {
+    const double period = period_of(oscillator_), begin = turns_at(rest.time), end = begin + rest.length / period;
+    double sum = 0.0;
+    for (double here = begin; here < end;) {
+      double next = end;
+      for (const bool rises : {false, true})
+        if (const auto zero = phase_of_orders(oscillator_.shape.orders, sign_of(rest.side) * oscillator_.forcing,
+                                              -constant, rises, here))
+          if (const double ahead = part_of_turn(*zero - here); ahead > 1e-12) next = std::min(next, here + ahead);
+      sum += std::max(0.0, pressing(rest, rest.time + (here - begin) * period, (next - here) * period));
+      here = next;
+    }
+    return sum;
+  }
   /// The phase of the force, in turns.
   [[nodiscard]] double turns_at(double time) const {
     return phase_ / (2 * pi<double>()) + time / period_of(oscillator_);
@@ -257,7 +273,12 @@ class Energy::Observer {
   [[nodiscard]] double pressing(const motion::Event& rest, double time, double length) const {
     const Oscillator& o = oscillator_;
     double sum = constant_force_at(rest) * length;
-    if (o.forcing != 0 && !o.shape.is_sine()) {
+    if (o.forcing != 0 && o.shape.has_orders()) {
+      o.shape.orders.each(sine_cosine_of_turns(turns_at(time + length / 2)), [&](int j, double value, double) {
+        const double half = j * o.frequency * length / 2;
+        sum += o.forcing * value * length * (half == 0 ? 1.0 : std::sin(half) / half);
+      });
+    } else if (o.forcing != 0 && !o.shape.is_sine()) {
       const double swing = swing_of(o.shape) * o.frequency * length / 2,
                    s = shape_at(o.shape, turns_at(time + length / 2)).sine;
       sum += o.forcing * s * length * (swing == 0 ? 1.0 : std::sin(swing) / swing);

@@ -150,8 +150,8 @@ class LooseEnergy {
       const motion::Motion<double> m = arc.at(s);
       const Frame b = frame_at(m.sine, m.cosine, begin + s);
       const double v = m.v - b.v;
-      const double force = oscillator_.load + oscillator_.forcing * m.sine - oscillator_.stiffness * b.x -
-                           2 * oscillator_.damping * b.v - b.a;
+      const double force = oscillator_.load + oscillator_.forcing * arc.constants().drive(m).sine -
+                           oscillator_.stiffness * b.x - 2 * oscillator_.damping * b.v - b.a;
       work_ += weight * force * v;
       damped_ += weight * 2 * oscillator_.damping * v * v;
       if (is_carrying) work_ += weight * loose_.ratio * (loose_.load - b.a) * v;

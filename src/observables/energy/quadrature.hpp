@@ -44,7 +44,9 @@ template <class Constants>
 [[nodiscard]] Pace pace_of(const Constants& constants) {
   const auto fastest = static_cast<double>(constants.rate);
   if constexpr (Constants::effects.damping != Damping::heavy) return {fastest, fastest};
-  const auto lasting = std::max(static_cast<double>(constants.nu), std::abs(static_cast<double>(constants.slow)));
+  const double force = static_cast<double>(constants.nu) *
+                       (constants.has_orders() ? static_cast<double>(constants.shape.orders.highest()) : 1.0);
+  const auto lasting = std::max(force, std::abs(static_cast<double>(constants.slow)));
   return {fastest, std::min(lasting, fastest)};
 }
 

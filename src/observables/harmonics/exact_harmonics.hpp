@@ -51,7 +51,7 @@ class ExactHarmonics {
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k), h = arc.constants().h;
       const Complex z = impedance(h, w, arc.constants().k);
-      if (resonates(z) || arc.constants().is_in_pieces()) {
+      if (resonates(z) || arc.constants().is_in_pieces() || arc.constants().has_orders()) {
         x_[k] += quadrature<20>(arc, w, begin, length);
         continue;
       }

@@ -21,13 +21,13 @@ class RowSampler : public Sampler {
   using Sampler::arc;
   /// On an arc in closed form one sample in 257 is evaluated. Those after it follow in rows, from instants to which
   /// steps of whole rows lead, so that no error grows along an arc. On an arc so short that every digit of it counts,
-  /// each sample is evaluated.
+  /// or under a force of several sines, each sample is evaluated.
   template <Effects E>
   void arc(const motion::Arc<double, E>& arc, double begin, double length) {
     if constexpr (E.stiffness)  // soft stops are among its effects
       if (&arc.constants() != steps_of_) forget_steps(&arc.constants());
-    const bool is_short = length * arc.constants().rate <= 0.25;
-    by_runs(arc, begin, length, is_short ? 0 : rows * StepRow::size, [&](const auto& here, std::size_t more) {
+    const bool each = length * arc.constants().rate <= 0.25 || arc.constants().has_orders();
+    by_runs(arc, begin, length, each ? 0 : rows * StepRow::size, [&](const auto& here, std::size_t more) {
       take_row(arc, here, std::min(more, StepRow::size));
       for (std::size_t row = 1; row * StepRow::size < more; ++row)
         take_row(arc, arc.moved(here, step_over(row, arc.constants())),

@@ -14,7 +14,7 @@ namespace {
 /// which moves a loose mass in its housing the other way.
 template <Effects E>
 Side ahead_of(const motion::Motion<double>& m, const motion::ArcConstants<double, E>& constants, double sign = 1) {
-  const double way = m.v != 0 ? m.v : m.a != 0 ? m.a : sign * constants.f * m.cosine;
+  const double way = m.v != 0 ? m.v : m.a != 0 ? m.a : sign * constants.f * constants.drive(m).cosine;
   return way > 0 ? Side::upper : Side::lower;
 }
 

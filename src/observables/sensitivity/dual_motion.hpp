@@ -41,7 +41,8 @@ template <class Along, Effects E>
   const motion::Motion<double>& m = stretch.start;
   const Along x = with_slope_of(m.x, x_at), offset = with_slope_of(m.offset, x_at), v = with_slope_of(m.v, v_at),
               sine = with_slope_of(m.sine, force.sine), cosine = with_slope_of(m.cosine, force.cosine);
-  const Along a = constants.acceleration(constants.from_equilibrium(x, Along(stretch.anchor), offset), v, sine);
+  const Along a =
+      constants.acceleration(constants.from_equilibrium(x, Along(stretch.anchor), offset), v, {sine, cosine});
   return {offset, x, v, with_slope_of(m.a, a), sine, cosine};
 }
 

@@ -77,11 +77,13 @@ class HousingInstants {
         needed += share * soft.stiffness * (x - soft.position);
       }
       const Along sine = needed / still.f;
-      if (!pieces_.is_in_pieces())
-        phase = with_slope_of(0, sine / next.start.cosine);
-      else
+      if (!pieces_.is_in_pieces()) {
+        const auto [at, slope] = still.drive(SineCosine<Along>{next.start.sine, next.start.cosine});
+        phase = with_slope_of(0, (sine - at) / slope.value);
+      } else {
         phase = next.start.cosine == 0 ? pieces_.knot(next)
                                        : with_slope_of(0, (sine - pieces_.at(next, Along(0)).sine) / next.start.cosine);
+      }
     });
     return phase;
   }

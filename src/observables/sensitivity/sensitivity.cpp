@@ -111,7 +111,8 @@ class Walk {
       state_.phase = by_jump ? pieces_.knot(stretch) : with_slope_of(0, (sine - still) / m.cosine);
       if (by_jump) return;
     } else {
-      state_.phase = with_slope_of(0, sine / m.cosine);
+      const auto [still, slope] = still_.drive(SineCosine<Along>{m.sine, m.cosine});
+      state_.phase = with_slope_of(0, (sine - still) / slope.value);
     }
     const double begins = slips_.release_acceleration(stretch.ahead).value;
     closes_ = closes_ && std::abs(m.a - begins) <= same * std::abs(still_.f.value);

@@ -18,7 +18,7 @@ namespace modes {
 template <class Loop, class State>
 [[nodiscard]] auto push(const Loop& loop, const State& state) {
   using Number = typename Loop::Number;
-  return Number(loop.holding_at(state).constant + loop.constants().f * loop.phase(state).sine);
+  return Number(loop.holding_at(state).constant + loop.constants().f * loop.constants().drive(loop.phase(state)).sine);
 }
 /// The rate of these forces.
 template <class Loop, class State>
@@ -27,8 +27,8 @@ template <class Loop, class State>
   const auto& c = loop.constants();
   if constexpr (requires { loop.walls(); })
     if (!Loop::carries && state.loose.pushed)
-      return Number(c.f * c.nu * loop.phase(state).cosine + loop.walls().rate_of_push(state.loose));
-  return Number(c.f * loop.phase(state).cosine);
+      return Number(c.f * c.nu * c.drive(loop.phase(state)).cosine + loop.walls().rate_of_push(state.loose));
+  return Number(c.f * c.drive(loop.phase(state)).cosine);
 }
 /// The side that a mass slips to: that of its velocity, or that to which it is pushed, or let go.
 template <class Loop, class State>

@@ -79,14 +79,11 @@ class GuardsAtWall {
   void holds(const motion::Holding<Number>& holding, const Number& constant, const Number& f) {
     const motion::Motion<Number>& start = step_.main().start();
     Series force = step_.push_powers();
-    Number term = f, drive = start.sine, next = start.cosine;
-    for (std::size_t k = 0; k < force.size(); ++k) {
-      force[k] += term * drive;
-      term *= step_.constants().nu * step_.length() / static_cast<double>(k + 1);
-      const Number turn = -step_.constants().curl() * drive;
-      drive = next, next = turn;
-    }
-    force[0] += constant;
+    const SineCosine<Number> phase{start.sine, start.cosine};
+    force[0] += constant + f * step_.constants().drive(phase).sine;
+    motion::with_force_terms<std::tuple_size_v<Series>>(step_.constants(), f, phase, step_.length(), [&](auto&& term) {
+      for (std::size_t k = 1; k < force.size(); ++k) force[k] += term(k);
+    });
     for (const Side side : {Side::lower, Side::upper}) {
       if (!holding.may_go(side)) continue;
       Series left = sum(Number(-sign_of(side)), force, Number(0), force);
