@@ -247,10 +247,10 @@ class ArcConstants {
   Number period;                    ///< of the force; without forcing 2 pi
   DerivativeBounds<Number> derivative_bounds;
   Number response_speed{};                                                ///< largest velocity of that
-  std::array<ForceOrder<Number>, ForceOrders<Number>::most> responses{};  ///< P and Q of unit forces of orders, but
+  std::array<ForceOrder<Number>, ForceOrders<Number>::most> responses{};  ///< P and Q of orders; 0 of the resonant one
   std::array<Number, 3> order_bounds{};  ///< of the sixth and the next derivatives of their sum, over nu^6
-  Response<Number> of_swing{};           ///< to a half-sine
-  std::size_t resonant = 0;              ///< the one near resonance, whose response a step has; 0: none is
+  Response<Number> of_swing{};           ///< to a half-sine that went on for ever
+  std::size_t resonant = 0;              ///< the order near resonance, whose response a step has; 0: none is
 
  private:
   /// Whether the set has arcs that don't form response and transient together; those of any stiffness have both kinds.

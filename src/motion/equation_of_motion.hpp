@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "math/number.hpp"
 #include "scene/effects.hpp"
 

@@ -5,15 +5,12 @@
 #include <string_view>
 
 #include "scene/parameter_row.hpp"
+#include "scene/stop_rows.hpp"
 
 namespace clatter {
 inline namespace scene {
 
 namespace detail {
-
-constexpr std::string_view force_with_orders = "f = 1.0\n",
-                           machine_with_orders =
-                               "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\nfrequency = 25.0\n";
 
 /// A text whose '#' are digits.
 template <std::size_t size>
@@ -57,13 +54,13 @@ constexpr auto order_rows() {
     constexpr std::size_t i = digit - '2';
     return std::array{
         Row{.key = Text::f.view(),
-            .in_scene = {"0", "0.3", Text::of_f.view(), force_with_orders, Text::f_name.view()},
+            .in_scene = {"0", "0.3", Text::of_f.view(), a_force, Text::f_name.view()},
             .counterpart = Text::force.view(),
             .role = Role::force_order,
             .place = [](BasicGivenScene<Number>& scene) -> Number& { return scene.orders[i].amplitude; }},
         Row{.key = Text::force.view(),
             .quantity = force,
-            .in_machine = {"0", "10 N", Text::of_force.view(), machine_with_orders, Text::force_name.view()},
+            .in_machine = {"0", "10 N", Text::of_force.view(), forced, Text::force_name.view()},
             .counterpart = Text::f.view(),
             .role = Role::force_order,
             .place = [](BasicGivenScene<Number>& scene) -> Number& { return scene.orders[i].amplitude; }},

@@ -17,9 +17,8 @@ inline namespace scene {
 
 namespace detail {
 
-constexpr std::string_view a_force = "f = 1.0\n", friction_only = "friction = 0.2\n", gap_only = "gap = 3e-3\n",
+constexpr std::string_view friction_only = "friction = 0.2\n", gap_only = "gap = 3e-3\n",
                            mass_stops_force = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\n",
-                           forced = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\nfrequency = 25.0\n",
                            square_force =
                                "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\n"
                                "frequency = 25.0\nforce_shape = \"square\"\n",

@@ -10,6 +10,8 @@ inline namespace scene {
 
 namespace detail {
 
+constexpr std::string_view a_force = "f = 1.0\n",
+                           forced = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\nfrequency = 25.0\n";
 constexpr std::string_view stops = "xs = 1.0\n", soft = "xs = 1.0\nstop_stiffness = 100.0\n";
 constexpr std::string_view some_mass = "mass = 0.25\n",
                            mass_soft = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nstop_stiffness = 1e5\n",

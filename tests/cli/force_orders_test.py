@@ -95,19 +95,7 @@ class Relations(OfOneMotion):
         self.compare(BOUNCING, {**BOUNCING, "f_2": 0.0, "phase_2": 0.4})
 
     def test_all_methods_tell_the_same(self):
-        scene = {**BOUNCING, **ORDERS}
-        one = self.transient(scene, 12.0)
-
-        def off(method):
-            time = {"mode": "transient", "duration": 12.0}
-            text = text_of(scene, time, {"trajectory": 7}) + f"[integrator]\n{method}\n"
-            with h5py.File(self.run_clatter(text, "other", options=("--force",))) as other:
-                return np.abs(other["x"][()] - one["x"]).max()
-
-        self.assertLess(off('method = "dopri5"\ntolerance = 1e-12'), 1e-8)
-        coarse, fine = (off(f'method = "moreau"\nstep = {step}') for step in (1e-3, 1e-5))
-        self.assertLess(fine, 1e-2)
-        self.assertLess(fine, coarse / 10)
+        self.compare_methods({**BOUNCING, **ORDERS})
 
     def test_a_machine_has_the_motion_of_its_scene(self):
         mass, length, rate = 0.4, 3e-3, 70.0

@@ -86,6 +86,21 @@ class OfOneMotion(LooseMass):
         for name in ("x", "v", "impact_tau", "impact_v_before"):
             np.testing.assert_allclose(mine[name], its[name], rtol=0, atol=atol)
 
+    def compare_methods(self, scene):
+        """General methods come near to the exact one, the nearer the shorter their steps."""
+        one = self.transient(scene, 12.0)
+
+        def off(method):
+            time = {"mode": "transient", "duration": 12.0}
+            text = text_of(scene, time, {"trajectory": 7}) + f"[integrator]\n{method}\n"
+            with h5py.File(self.run_clatter(text, "other", options=("--force",))) as other:
+                return np.abs(other["x"][()] - one["x"]).max()
+
+        self.assertLess(off('method = "dopri5"\ntolerance = 1e-12'), 1e-8)
+        coarse, fine = (off(f'method = "moreau"\nstep = {step}') for step in (1e-3, 1e-5))
+        self.assertLess(fine, 1e-2)
+        self.assertLess(fine, coarse / 10)
+
 
 class Relations(OfOneMotion):
     def test_a_square_wave_is_twice_the_pulse_less_its_half(self):
@@ -109,18 +124,7 @@ class Relations(OfOneMotion):
         for shape in SHAPES:
             with self.subTest(shape):
                 scene = {**BOUNCING, **shaped(shape, 0.3, 0.1)}
-                one = self.transient(scene, 12.0)
-
-                def off(method):
-                    time = {"mode": "transient", "duration": 12.0}
-                    text = text_of(scene, time, {"trajectory": 7}) + f"[integrator]\n{method}\n"
-                    with h5py.File(self.run_clatter(text, "other", options=("--force",))) as other:
-                        return np.abs(other["x"][()] - one["x"]).max()
-
-                self.assertLess(off('method = "dopri5"\ntolerance = 1e-12'), 1e-8)
-                coarse, fine = (off(f'method = "moreau"\nstep = {step}') for step in (1e-3, 1e-5))
-                self.assertLess(fine, 1e-2)
-                self.assertLess(fine, coarse / 10)
+                self.compare_methods(scene)
 
     def test_a_machine_has_the_motion_of_its_scene(self):
         mass, length, rate = 0.4, 3e-3, 70.0

@@ -8,6 +8,7 @@
 #include "math/fifty_digits.hpp"
 #include "motion/arc.hpp"
 #include "motion/arc_bounds.hpp"
+#include "motion/closed_form.hpp"
 #include "motion/contact_force.hpp"
 #include "support/force_table.hpp"
 #include "support/motion.hpp"
@@ -50,33 +51,11 @@ std::vector<Oscillator> oscillators() {
 }
 
 TEST(ForceInPieces, closed_form_is_the_solution_of_the_equation_of_motion) {
-  for (const Oscillator& o : oscillators()) {
-    const support::ArcStart start{0.37, -1.1, 0.137};
-    const auto closed = support::motion_after<FiftyDigits>(o, start, 2.3),
-               stepped = support::motion_by_taylor<FiftyDigits>(o, start, 2.3);
-    const FiftyDigits size = 1 + abs(stepped.x) + abs(stepped.v) + abs(stepped.a);
-    EXPECT_LT(abs(closed.x - stepped.x), 1e-38 * size) << text(o);
-    EXPECT_LT(abs(closed.v - stepped.v), 1e-38 * size) << text(o);
-    EXPECT_LT(abs(closed.a - stepped.a), 1e-36 * size) << text(o);
-    EXPECT_LT(abs(closed.sine - stepped.sine) + abs(closed.cosine - stepped.cosine), 1e-40 * size) << text(o);
-    EXPECT_LT(abs(closed.offset - (closed.x - FiftyDigits(0.37))), 1e-38 * size) << text(o);
-  }
+  for (const Oscillator& o : oscillators()) expect_closed_form(o, text(o));
 }
 
 TEST(ForceInPieces, double_agrees_with_fifty_digits) {
-  for (const Oscillator& o : oscillators())
-    for (const double s : {1e-6, 0.03, 0.2, 0.5, 1.0, 6.0}) {
-      const support::ArcStart start{0.37, -1.1, 0.137};
-      const auto rounded = support::motion_after<double>(o, start, s);
-      const auto exact = support::motion_after<FiftyDigits>(o, start, s);
-      // a start that is off by a rounding may be so by all that the motion grows
-      const double grown = o.stiffness < 0 ? std::exp(std::sqrt(-o.stiffness) * s) : 1 + s;
-      const double reached = static_cast<double>(abs(exact.x) + abs(exact.v) + abs(exact.a));
-      const double tolerance = 1e-14 * (1 + reached) * grown;
-      EXPECT_NEAR(rounded.x, static_cast<double>(exact.x), tolerance) << text(o) << ", s = " << s;
-      EXPECT_NEAR(rounded.v, static_cast<double>(exact.v), tolerance) << text(o) << ", s = " << s;
-      EXPECT_NEAR(rounded.offset, static_cast<double>(exact.offset), tolerance) << text(o) << ", s = " << s;
-    }
+  for (const Oscillator& o : oscillators()) expect_fifty_digits(o, 1e-14, text(o));
 }
 
 TEST(ForceInPieces, the_velocity_keeps_its_digits_on_a_ramp_of_a_billionth_of_the_period) {
