@@ -35,8 +35,8 @@ namespace clatter::stepping {
 /// Each flight and each forcing period begins with a step whose size depends on the state alone: a period is a function
 /// of the state at its beginning, so a motion can repeat.
 template <Effects E>
-class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
-  using Base = EventDriven<DormandPrince<E>, double, E>;
+class DormandPrince : public EventDriven<DormandPrince<E>, DenseArcs, double, E> {
+  using Base = EventDriven<DormandPrince<E>, DenseArcs, double, E>;
 
  public:
   static constexpr bool in_closed_form = false;

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "motion/chatter.hpp"
+#include "stepping/any_observer.hpp"
 #include "stepping/modes.hpp"
 #include "stepping/stop_frame.hpp"
 
@@ -20,13 +21,16 @@ namespace clatter::stepping {
 /// With a loose mass it gives `beside(arc, start, load)`, the motion of that beside an arc of the main mass, its
 /// contact `meet_wall(beside, walls, horizon)`, the end `let_go(arc, pressing, horizon)` of a time for which a wall
 /// presses it, and `held_arc(constants, state, motion, anchor, length)` of a main mass that something holds.
-template <class Method, class N, Effects E>
+template <class Method, class Arcs, class N, Effects E>
 class EventDriven : public IntegratorBase<N, E> {
   using Base = IntegratorBase<N, E>;
 
  public:
   using Number = N;
   using State = motion::State<Number>;
+  using Any = ObserverOf<Arcs, E>;
+  /// Whether observers are seen through a pointer. The loops of rigid stops alone are so short that this would cost.
+  static constexpr bool is_long = E.stiffness || !std::is_same_v<Number, double>;
 
   /// Looks for contacts with the stops in reach only.
   EventDriven(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits,
@@ -45,16 +49,15 @@ class EventDriven : public IntegratorBase<N, E> {
   /// by its impacts.
   template <class Observer>
   [[nodiscard]] Outcome advance(State& state, const Number& end, std::int64_t origin, Observer& observer) {
-    if constexpr (E.own_motion && Method::in_closed_form)
-      if (frames_) return advance_in_frames(state, end, origin, observer);
-    if constexpr (E.stiffness)
-      for (Number knot = this->next_knot(state.phase_turns); knot + knot_rounding<Number>() < end;
-           knot = this->next_knot(state.phase_turns)) {
-        const Outcome outcome = advance_in_piece(state, knot, origin, observer);
-        if (outcome != Outcome::completed) return outcome;
-      }
-    return advance_in_piece(state, end, origin, observer);
+    if constexpr (is_long) {
+      Any any(observer);
+      return advance_long(state, end, origin, any);
+    } else {
+      return advance_in_piece(state, end, origin, observer);
+    }
   }
+  /// The same, compiled once for all observers: `long_loop.hpp` has it.
+  [[nodiscard]] Outcome advance_long(State& state, const Number& end, std::int64_t origin, Any& observer);
 
   /// The state in which a stop releases a mass from rest, in the first forcing period; nothing if it never does.
   [[nodiscard]] std::optional<State> released_from(Side side) const {

@@ -21,7 +21,7 @@ struct OwnSearch {
 
 /// Closed-form arcs and proved first contacts, which a `Search` finds, for the effects in E.
 template <class N, Effects E, class Search = OwnSearch>
-class Exact : public EventDriven<Exact<N, E, Search>, N, E> {
+class Exact : public EventDriven<Exact<N, E, Search>, ExactArcs<N>, N, E> {
  public:
   using Number = N;
   static constexpr bool in_closed_form = true;
@@ -38,7 +38,7 @@ class Exact : public EventDriven<Exact<N, E, Search>, N, E> {
 
   Exact(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits,
         const motion::ChatterRule<Number>& rule)
-      : EventDriven<Exact, N, E>(scene, in_reach, limits, rule), search_(this->constants(), in_reach) {}
+      : EventDriven<Exact, ExactArcs<N>, N, E>(scene, in_reach, limits, rule), search_(this->constants(), in_reach) {}
 
   /// The arc that begins with `start`, and its first contact, or its end at the horizon. Without stops a loose mass
   /// ends it, and its motion there isn't computed.

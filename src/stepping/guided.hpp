@@ -2,6 +2,7 @@
 
 #include "motion/guided_contact.hpp"
 #include "stepping/exact.hpp"
+#include "stepping/long_loop.hpp"
 
 namespace clatter::stepping {
 

@@ -8,6 +8,7 @@
 
 #include "motion/housed_arc.hpp"
 #include "motion/polynomial_in_housing.hpp"
+#include "stepping/any_observer.hpp"
 #include "stepping/carrying.hpp"
 #include "stepping/laws.hpp"
 #include "stepping/step_velocities.hpp"
@@ -40,6 +41,7 @@ class Moreau : public StepVelocities<E> {
 
  public:
   static constexpr bool in_closed_form = false;
+  using Any = ObserverOf<DenseArcs, E>;
 
   explicit Moreau(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
       : Base(scene, integration, limits), housing_(*this, with_numbers<double>(scene)) {}
@@ -48,18 +50,11 @@ class Moreau : public StepVelocities<E> {
   /// and events with their times since the section `origin`.
   template <class Observer>
   [[nodiscard]] Outcome advance(State& state, double end, std::int64_t origin, Observer& observer) {
-    Stage<Moreau, Observer> stage(*this, state, end, origin, observer);
-    this->drive_ = this->constants().drive(this->phase(state)).sine;
-    if constexpr (E.soft)
-      if (state.within == Side::none) this->look_beyond(state, 0.0);  // a start beyond a soft stop's place is no touch
-    if (!bounce_off(stage)) return Outcome::event_budget;
-    while (end - state.phase_turns > 2 * epsilon<double>()) {
-      this->report(state);
-      if (!step(stage, this->next_turns(state.phase_turns, end))) return Outcome::event_budget;
-    }
-    state.phase_turns = end;
-    return this->outcome_of(state);
+    Any any(observer);
+    return advance_long(state, end, origin, any);
   }
+  /// The same, compiled once for all observers.
+  [[nodiscard]] Outcome advance_long(State& state, double end, std::int64_t origin, Any& observer);
 
   [[nodiscard]] const motion::Walls<double>& walls() const requires(E.loose) { return housing_.walls; }
 

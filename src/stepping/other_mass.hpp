@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "stepping/integration.hpp"
 #include "stepping/main_mass.hpp"
 
 namespace clatter::stepping {

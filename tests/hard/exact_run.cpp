@@ -176,11 +176,11 @@ ExactRun flight_with(const Case& one) {
 }  // namespace
 
 ExactRun exact_run(const Case& one) {
-  return point::with_every_effect(one.scene, [&]<Effects E>() { return run_with<E>(one); });
+  return point::with_every_effect_but_own_motion(one.scene, [&]<Effects E>() { return run_with<E>(one); });
 }
 
 ExactRun exact_flight(const Case& one) {
-  return point::with_every_effect(one.scene, [&]<Effects E>() { return flight_with<E>(one); });
+  return point::with_every_effect_but_own_motion(one.scene, [&]<Effects E>() { return flight_with<E>(one); });
 }
 
 }  // namespace clatter::hard

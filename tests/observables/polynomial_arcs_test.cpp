@@ -13,7 +13,9 @@
 #include "observables/runs.hpp"
 #include "observables/samples/samples.hpp"
 #include "observables/stability/stability_observer.hpp"
+#include "steady/find_steady.hpp"
 #include "stepping/dormand_prince.hpp"
+#include "support/methods.hpp"
 #include "support/random.hpp"
 
 namespace clatter::observables::polynomial_arcs_test {
@@ -178,13 +180,18 @@ point::Problem with_tolerance(point::Problem scene, double tolerance) {
   return scene;
 }
 
+template <class Integrator>
+steady::ObservedTime found_by(Integrator& integrator, const point::Problem& scene) {
+  return find_steady(integrator, support::start_of(scene), scene, scene.time, scene.integration);
+}
+
 TEST(PolynomialArcs, multipliers_are_those_of_the_closed_form) {
   // check 5, in twelve digits; the motion is as far off as its steps
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
     const point::Problem scene = with_tolerance(paper_scene(0.5, 0.7, 1.0), tolerance);
     stepping::DormandPrince<general_effects({.damping = 0.1})> integrator(scene, scene.integration, limits_of(scene));
     Stability::Observer stability(scene.stops, 64 * epsilon<double>());
-    observe_by(integrator, scene, [&](double total, auto run) {
+    observe_by(integrator, found_by(integrator, scene), [&](double total, auto run) {
       run(stability);
       stability.finish_period(total, false);
     });
@@ -209,7 +216,7 @@ TEST(PolynomialArcs, extrema_and_harmonics_come_as_near_to_the_exact_ones_as_the
                                                                           with_tolerance(scene, tolerance).integration);
     std::optional<ExactHarmonics> harmonics;
     Extrema::Observer extrema;
-    observe_by(integrator, scene, [&](double total, auto run) {
+    observe_by(integrator, found_by(integrator, scene), [&](double total, auto run) {
       harmonics.emplace(5, 1.3);
       harmonics->finish(run(*harmonics, extrema).x, total);
     });

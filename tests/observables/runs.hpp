@@ -4,20 +4,18 @@
 #include <stdexcept>
 
 #include "motion/together.hpp"
+#include "point/exact_motion.hpp"
 #include "point/problem.hpp"
-#include "steady/find_steady.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
 
 namespace clatter::observables {
 
-/// The observed time of a scene as an integrator finds it, under the eyes of `make(total)`'s observers; gives its
-/// length.
+/// An observed time of a scene by an integrator, under the eyes of `make(total)`'s observers; gives its length.
 template <class Integrator, class Make>
-double observe_by(Integrator& integrator, const point::Problem& scene, Make&& make) {
-  motion::State<double> state;
-  state.x = scene.start.displacement, state.v = scene.start.velocity;
-  const steady::ObservedTime observed = find_steady(integrator, state, scene, scene.time, scene.integration);
+double observe_by(Integrator& integrator, const steady::ObservedTime& observed, Make&& make) {
   const double total = observed.turns * integrator.period();
-  state = observed.from;
+  motion::State<double> state = observed.from;
   make(total, [&](auto&... observer) {
     motion::Together all(observer...);
     const stepping::Outcome outcome = run_for(integrator, state, observed.turns, all);
@@ -27,12 +25,13 @@ double observe_by(Integrator& integrator, const point::Problem& scene, Make&& ma
   return total;
 }
 
-/// The same by the exact integrator.
+/// The same of the time that the exact integrator finds, by that.
 template <class Make>
 double observe(const point::Problem& scene, Make&& make) {
+  const steady::ObservedTime observed = point::ExactMotion::of(scene)->find_steady();
   return with_any_stops(scene.oscillator, [&]<Effects effects>() {
     stepping::Exact<double, effects> integrator(scene, limits_of(scene));
-    return observe_by(integrator, scene, make);
+    return observe_by(integrator, observed, make);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "math/fifty_digits.hpp"
 #include "observables/contacts/impacts_observer.hpp"
 #include "observables/runs.hpp"
+#include "stepping/long_loop.hpp"
 
 namespace clatter::observables::stability_test {
 namespace {

@@ -1,6 +1,7 @@
 #include "support/motion.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 #include "math/fifty_digits.hpp"
 #include "motion/arc.hpp"
@@ -15,11 +16,22 @@ motion::Motion<Number> first_motion(const motion::ArcConstants<Number, E>& const
   return {Number(0), x, v, constants.acceleration(x - constants.equilibrium, v, phase), phase.sine, phase.cosine};
 }
 
+/// Calls `function.operator()<set>()` for an oscillator: in 50 digits one of two sets, which serve all.
+template <class Number, class Function>
+decltype(auto) with_set(const Oscillator& oscillator, Function&& function) {
+  if constexpr (std::is_same_v<Number, double>)
+    return with_any_stops(oscillator, function);
+  else if (rotates(oscillator))
+    return function.template operator()<effect_sets::of_any_stiffness(Damping::light, Forcing::secular)>();
+  else
+    return function.template operator()<effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular)>();
+}
+
 }  // namespace
 
 template <class Number>
 motion::Motion<Number> motion_after(const Oscillator& oscillator, const ArcStart& start, double s) {
-  return with_any_stops(oscillator, [&]<Effects effects>() {
+  return with_set<Number>(oscillator, [&]<Effects effects>() {
     const motion::ArcConstants<Number, effects.arc()> constants(oscillator);
     return motion::Arc<Number, effects.arc()>(constants, first_motion(constants, start)).at(Number(s));
   });
@@ -27,9 +39,7 @@ motion::Motion<Number> motion_after(const Oscillator& oscillator, const ArcStart
 
 template <class Number>
 motion::Motion<Number> motion_by_taylor(const Oscillator& o, const ArcStart& start, double s) {
-  const Oscillator away{o.damping, 1.0,         10.0,
-                        0.0,       o.stiffness, o.shape};  // away from resonance: response and transient are separate
-  return with_any_stops(away, [&]<Effects effects>() {
+  return with_set<Number>(o, [&]<Effects effects>() {
     const motion::ArcConstants<Number, effects.arc()> constants(o);
     const motion::Arc<Number, effects.arc()> arc(constants, first_motion(constants, start));
     const auto steps = static_cast<int>(std::ceil(s * static_cast<double>(constants.rate) * 5));

@@ -10,6 +10,7 @@
 
 #include "math/fifty_digits.hpp"
 #include "stepping/exact.hpp"
+#include "stepping/long_loop.hpp"
 #include "stepping/run.hpp"
 #include "sweep/shaken_scenes.hpp"
 
