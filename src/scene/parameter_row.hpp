@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -57,6 +60,15 @@ struct ParameterRow {
 };
 
 namespace detail {
+
+/// Arrays one behind the other.
+template <class Row, std::size_t... sizes>
+constexpr auto joined(const std::array<Row, sizes>&... parts) {
+  std::array<Row, (sizes + ...)> all{};
+  auto end = all.begin();
+  ((end = std::ranges::copy(parts, end).out), ...);
+  return all;
+}
 
 /// The number of a scene that a member of one of its parts is.
 template <class Number, auto part, auto member>

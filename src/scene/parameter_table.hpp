@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cstddef>
 #include <numbers>
 #include <string_view>
 
@@ -28,15 +26,6 @@ constexpr std::string_view friction_only = "friction = 0.2\n", gap_only = "gap =
                            measured_force =
                                "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nfrequency = 25.0\n"
                                "force_table = \"period, force (N); 0, 40; 0.5, -40; 1, 40\"\n";
-
-/// Arrays one behind the other.
-template <class Row, std::size_t... sizes>
-constexpr auto joined(const std::array<Row, sizes>&... parts) {
-  std::array<Row, (sizes + ...)> all{};
-  auto end = all.begin();
-  ((end = std::ranges::copy(parts, end).out), ...);
-  return all;
-}
 
 }  // namespace detail
 
@@ -254,9 +243,8 @@ constexpr auto parameter_rows() {
           .role = Role::start,
           .place = at<Number, &Given::start_period>},
   };
-  const auto by_speed = restitution_rows<Number>(), loose_by_speed = loose_restitution_rows<Number>();
-  return joined(before_stops, order_rows<Number>(), stop_rows<Number>(), by_speed[0], by_speed[1], by_speed[2],
-                after_stops, loose_rows<Number>(), loose_by_speed[0], loose_by_speed[1], loose_by_speed[2]);
+  return joined(before_stops, order_rows<Number>(), stop_rows<Number>(), restitution_rows<Number>(), after_stops,
+                loose_rows<Number>(), loose_restitution_rows<Number>());
 }
 
 }  // namespace scene

@@ -81,7 +81,7 @@ constexpr auto restitution_rows() {
   using S = BasicStops<Number>;
   constexpr auto s = &BasicScene<Number>::stops;
   constexpr auto lower = &S::restitution_lower, upper = &S::restitution_upper;
-  return std::array{
+  return joined(
       rows_of<Number, s, lower, upper, &R::exponent>(
           {.keys = {"R_exponent", "R_exponent_lower", "R_exponent_upper"},
            .quantity = Quantity::number,
@@ -124,7 +124,7 @@ constexpr auto restitution_rows() {
            .long_name = {"least speed of a rebound", "least speed of a rebound, lower stop",
                          "least speed of a rebound, upper stop"},
            .beside = {below_stops, machine_below_stops},
-           .is_loose = false})};
+           .is_loose = false}));
 }
 
 /// Those of the walls of a loose mass.
@@ -135,7 +135,7 @@ constexpr auto loose_restitution_rows() {
   using L = BasicLooseMass<Number>;
   constexpr auto l = &BasicScene<Number>::loose;
   constexpr auto lower = &L::restitution_lower, upper = &L::restitution_upper;
-  return std::array{
+  return joined(
       rows_of<Number, l, lower, upper, &R::exponent>(
           {.keys = {"loose_R_exponent", "loose_R_exponent_lower", "loose_R_exponent_upper"},
            .quantity = Quantity::number,
@@ -180,7 +180,7 @@ constexpr auto loose_restitution_rows() {
            .long_name = {"least speed of a rebound of the loose mass", "least speed of a rebound, lower wall",
                          "least speed of a rebound, upper wall"},
            .beside = {loose_below, machine_loose_below},
-           .is_loose = true})};
+           .is_loose = true}));
 }
 
 }  // namespace scene

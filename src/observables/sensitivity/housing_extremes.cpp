@@ -39,7 +39,7 @@ class Search {
 };
 
 template <Effects E>
-HousingExtremes extremes_with(const Course& course, const ObservedSpan& span) {
+HousingExtremes extremes_of_both(const Course& course, const ObservedSpan& span) {
   const MainOscillators<double, E> oscillators(motion::ArcConstants<double, E>(span.scene.oscillator), span.scene);
   HousingExtremes extremes;
   Search x(span, extremes.x), y(span, extremes.y), z(span, extremes.z);
@@ -64,7 +64,8 @@ HousingExtremes extremes_with(const Course& course, const ObservedSpan& span) {
 }  // namespace
 
 HousingExtremes extremes_in_housing(const Course& course, const ObservedSpan& span) {
-  return with_smooth_effects<true>(span.scene.oscillator, [&]<Effects E>() { return extremes_with<E>(course, span); });
+  return with_smooth_effects<true>(span.scene.oscillator,
+                                   [&]<Effects E>() { return extremes_of_both<E>(course, span); });
 }
 
 }  // namespace clatter::observables
