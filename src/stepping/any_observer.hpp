@@ -13,8 +13,8 @@
 #include "stepping/stop_frame.hpp"
 
 /// Observers as the loops of machines with more than rigid stops see them. Those are long, and each observer has a type
-/// of its own: a loop that is told of any one by a call through a pointer is compiled once for all of them. Beside an
-/// event there the call costs nothing worth having.
+/// of its own: a loop that calls any of them through a pointer is compiled once for all. Beside an event there the call
+/// takes next to no time.
 namespace clatter::stepping {
 
 /// A reference to an observer of any type, to which arcs of some types are shown.
@@ -53,7 +53,7 @@ class AnyObserver {
   const Calls* calls_;
 };
 
-/// Effects of the arcs of any stiffness: those of the mass alone, in contact with soft stops, with a loose mass, and
+/// The effects of all arcs of any stiffness: of the mass alone, in contact with a soft stop, with a loose mass, or
 /// held.
 inline constexpr Effects any_rotation{.damping = Damping::light, .forcing = Forcing::regular, .stiffness = true};
 inline constexpr Effects any_resonance{.damping = Damping::light, .forcing = Forcing::secular, .stiffness = true};
