@@ -2,25 +2,10 @@
 #include "stepping/long_loop.hpp"
 
 namespace clatter::stepping {
-namespace {
 
-template <Effects E>
-using Loop = EventDriven<DormandPrince<E>, DenseArcs, double, E>;
-
-constexpr Effects one_rotating = effect_sets::with_standing_stops(Damping::light, Forcing::regular);
-constexpr Effects one_decaying = effect_sets::with_standing_stops(Damping::heavy, Forcing::regular);
-constexpr Effects both_rotating = effect_sets::with_everything(Damping::light, Forcing::regular);
-constexpr Effects both_decaying = effect_sets::with_everything(Damping::heavy, Forcing::regular);
-
-}  // namespace
-
-template Outcome Loop<one_rotating>::advance_long(Loop<one_rotating>::State&, const double&, std::int64_t,
-                                                  Loop<one_rotating>::Any&);
-template Outcome Loop<one_decaying>::advance_long(Loop<one_decaying>::State&, const double&, std::int64_t,
-                                                  Loop<one_decaying>::Any&);
-template Outcome Loop<both_rotating>::advance_long(Loop<both_rotating>::State&, const double&, std::int64_t,
-                                                   Loop<both_rotating>::Any&);
-template Outcome Loop<both_decaying>::advance_long(Loop<both_decaying>::State&, const double&, std::int64_t,
-                                                   Loop<both_decaying>::Any&);
+template struct CompiledLoop<DormandPrince<effect_sets::with_standing_stops(Damping::light, Forcing::regular)>>;
+template struct CompiledLoop<DormandPrince<effect_sets::with_standing_stops(Damping::heavy, Forcing::regular)>>;
+template struct CompiledLoop<DormandPrince<effect_sets::with_everything(Damping::light, Forcing::regular)>>;
+template struct CompiledLoop<DormandPrince<effect_sets::with_everything(Damping::heavy, Forcing::regular)>>;
 
 }  // namespace clatter::stepping

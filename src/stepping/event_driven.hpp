@@ -31,6 +31,7 @@ class EventDriven : public IntegratorBase<N, E> {
   using Any = ObserverOf<Arcs, E>;
   /// Whether observers are seen through a pointer. The loops of rigid stops alone are so short that this would cost.
   static constexpr bool is_long = E.stiffness || !std::is_same_v<Number, double>;
+  static_assert(is_long || !E.own_motion);
 
   /// Looks for contacts with the stops in reach only.
   EventDriven(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, const Limits& limits,

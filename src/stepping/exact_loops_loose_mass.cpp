@@ -2,19 +2,8 @@
 #include "stepping/long_loop.hpp"
 
 namespace clatter::stepping {
-namespace {
 
-template <Effects E>
-using Loop = EventDriven<Exact<double, E>, ExactArcs<double>, double, E>;
-
-constexpr Effects loose_rotating = effect_sets::with_loose_mass(Damping::light, Forcing::secular);
-constexpr Effects loose_decaying = effect_sets::with_loose_mass(Damping::heavy, Forcing::regular);
-
-}  // namespace
-
-template Outcome Loop<loose_rotating>::advance_long(Loop<loose_rotating>::State&, const double&, std::int64_t,
-                                                    Loop<loose_rotating>::Any&);
-template Outcome Loop<loose_decaying>::advance_long(Loop<loose_decaying>::State&, const double&, std::int64_t,
-                                                    Loop<loose_decaying>::Any&);
+template struct CompiledLoop<Exact<double, effect_sets::with_loose_mass(Damping::light, Forcing::secular)>>;
+template struct CompiledLoop<Exact<double, effect_sets::with_loose_mass(Damping::heavy, Forcing::regular)>>;
 
 }  // namespace clatter::stepping

@@ -3,7 +3,7 @@
 #include "stepping/event_driven.hpp"
 
 /// The loop of machines with more than rigid stops, for files that compile it. Each takes seconds, so those of the
-/// compiled sets of effects, and of the reference in 50 digits, are compiled in `loops_*.cpp` alone.
+/// compiled sets of effects, and of the reference in 50 digits, are compiled in `*_loops*.cpp` alone.
 namespace clatter::stepping {
 
 template <class Method, class Arcs, class N, Effects E>
@@ -19,5 +19,11 @@ Outcome EventDriven<Method, Arcs, N, E>::advance_long(State& state, const Number
     }
   return advance_in_piece(state, end, origin, observer);
 }
+
+/// Compiles the loop of a method, once it is instantiated by name.
+template <class Method>
+struct CompiledLoop {
+  static constexpr auto advance = &Method::advance_long;
+};
 
 }  // namespace clatter::stepping

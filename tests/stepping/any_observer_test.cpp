@@ -27,14 +27,13 @@ struct Record {
 };
 
 TEST(AnyObserver, shows_each_arc_by_its_own_type_and_each_event_in_their_order) {
-  Record record, other;
+  Record record;
   AnyObserver<Base, Derived> any(record);
   const auto copy = any;
   any.arc(Derived{{3}}, 0.5, 0.25);
   copy.event({.time = 0.75});
   any.arc(Base{4}, 0.75, 0.0);
   EXPECT_EQ(record.seen, (std::vector<std::string>{"derived 3: 25.500000", "event at 0.750000", "base 4: 0.750000"}));
-  EXPECT_TRUE(other.seen.empty());
 }
 
 }  // namespace

@@ -31,16 +31,16 @@ bool is_on_stop(const Scene& scene, const attractors::SectionState& state) {
 /// The middle of the first flight from the start on that lasts a thousandth of a forcing period or longer, in forcing
 /// periods after the start. Nothing if the run fails, or flies nowhere.
 std::optional<double> middle_of_flight(const point::Problem& problem, std::int64_t periods) {
-  constexpr double full_turn = 2 * std::numbers::pi, shortest = 1e-3;
+  constexpr double turn = 2 * std::numbers::pi, shortest = 1e-3;
   const auto run = event_run(problem, static_cast<std::size_t>(periods));
   if (!run) return std::nullopt;
   double begin = 0;
   bool is_pressed = false;
   for (const OrbitEvent& event : run->events) {
-    const double end = event.phase / full_turn;
+    const double end = event.phase / turn;
     const bool is_contact = event.kind == Event::Kind::separation || is_pressed;
     if (end - begin >= shortest && !is_contact) return (begin + end) / 2;
-    begin = (event.phase + event.rest) / full_turn;
+    begin = (event.phase + event.rest) / turn;
     if (!event.is_of_wall() && !halts(event.kind)) is_pressed = presses(event.kind);
   }
   const auto last = static_cast<double>(periods);

@@ -17,6 +17,8 @@
 namespace clatter::branches {
 namespace {
 
+using Kind = Opening::Kind;
+
 /// Acceleration at an event of a soft stop, that of the free motion.
 double acceleration(const SceneNumbers<double>& p, const OrbitEvent& event, double offset) {
   const LeadingForce<double> force = p.force();
@@ -107,17 +109,17 @@ Orbit with_release(const FollowedScene& scene, const Orbit& orbit, std::size_t s
 
 Orbit with_opening(const FollowedScene& scene, const Orbit& orbit, const Opening& opening, double advance) {
   switch (opening.kind) {
-    case Opening::Kind::contact:
+    case Kind::contact:
       return with_short(scene, orbit, opening.event, advance);
-    case Opening::Kind::rebound:
+    case Kind::rebound:
       return with_rebound(scene, orbit, opening.event, advance);
-    case Opening::Kind::turn:
+    case Kind::turn:
       return with_turn(scene, orbit, opening.event, advance);
-    case Opening::Kind::release:
+    case Kind::release:
       return with_release(scene, orbit, opening.event, advance);
-    case Opening::Kind::within:
-    case Opening::Kind::outside:
-      return with_halt_beside(scene, orbit, opening.event, advance, opening.kind == Opening::Kind::within);
+    case Kind::within:
+    case Kind::outside:
+      return with_halt_beside(scene, orbit, opening.event, advance, opening.kind == Kind::within);
   }
   return orbit;
 }
@@ -126,11 +128,11 @@ namespace {
 
 /// Another opening of that kind in a violation: motion may be symmetric about another place than x = 0, or in a scene
 /// that isn't, and then it comes to both halves at once.
-std::optional<Opening> another(Opening::Kind kind, const Violation& found) {
-  if (kind == Opening::Kind::contact && found.kind == Violation::Kind::passes_through &&
+std::optional<Opening> another(Kind kind, const Violation& found) {
+  if (kind == Kind::contact && found.kind == Violation::Kind::passes_through &&
       found.turning.kind != Event::Kind::impact)
     return Opening{kind, found.event + 1};
-  if ((kind == Opening::Kind::turn || kind == Opening::Kind::release) && found.kind == Violation::Kind::slips)
+  if ((kind == Kind::turn || kind == Kind::release) && found.kind == Violation::Kind::slips)
     return Opening{kind, found.event};
   return std::nullopt;
 }
@@ -156,7 +158,7 @@ Condition lasts(const FollowedScene& scene, const Orbit& orbit, const Opening& o
   }
   // the stick before an early release lasts on to the crest, beside which the slip ends
   const double length =
-      opening.kind == Opening::Kind::release ? orbit.event(first + 1).phase - orbit.event(first).phase : advance;
+      opening.kind == Kind::release ? orbit.event(first + 1).phase - orbit.event(first).phase : advance;
   return {.kind = duration, .event = first, .amount = length};
 }
 /// The direction in which what has begun grows, in the unknowns.
@@ -166,7 +168,7 @@ Vector growth(const OrbitEquations& of, const Opening& opening, std::size_t firs
     const std::size_t halt = halt_of(opening, of.shape());
     const OrbitEvent& event = of.shape().events[halt];
     const Side side = soft_stop_at_halt(of.scene(), event);
-    longer[of.phase_of(halt) + 1] = sign_of(side) * (opening.kind == Opening::Kind::within ? 1 : -1);
+    longer[of.phase_of(halt) + 1] = sign_of(side) * (opening.kind == Kind::within ? 1 : -1);
     return longer;
   }
   longer[of.phase_of(first)] = -1;
@@ -179,12 +181,11 @@ Vector growth(const OrbitEquations& of, const Opening& opening, std::size_t firs
 /// strikes that.
 std::optional<Orbit> with_other_stop(const FollowedScene& scene, Orbit orbit, const Opening& opening,
                                      const Violation& found, double advance) {
-  if (opening.kind == Opening::Kind::outside && found.kind == Violation::Kind::pulls &&
+  if (opening.kind == Kind::outside && found.kind == Violation::Kind::pulls &&
       orbit.events[found.event].kind == Event::Kind::impact)
     return halting_at_stop(scene, orbit, found.event);
   const std::size_t next = (found.event + 1) % orbit.size(), opened = halt_of(opening, orbit);
-  if (opening.kind != Opening::Kind::within || found.kind != Violation::Kind::passes_through || next <= opened)
-    return {};
+  if (opening.kind != Kind::within || found.kind != Violation::Kind::passes_through || next <= opened) return {};
   OrbitEvent& halt = orbit.events[next];
   const Side stop = orbit.heading_before(next);
   if (halt.kind != Event::Kind::reversal || halt.held_by() != Side::none) return {};
@@ -224,7 +225,7 @@ std::optional<Lasting> with_lasting(const Equations& equations, const FollowedSc
     const auto second = another(opening.kind, *violated);
     if (!second) return std::nullopt;
     Orbit both = there.orbit_at(lasting.at);
-    if (opening.kind == Opening::Kind::contact) both = both.with(violated->turning, second->event);
+    if (opening.kind == Kind::contact) both = both.with(violated->turning, second->event);
     lasting.orbit = with_opening(scene, both, *second, advance);
     if (second->event <= lasting.first) lasting.first += lasting.orbit.size() - there.shape().size();
   }
@@ -255,7 +256,7 @@ std::optional<Opened> opened_once(const Equations& equations, const FollowedScen
 std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
                              const Opening& opening, double tolerance) {
   // a stop that the mass comes to strike has its mirror image elsewhere
-  const bool on_stop = opening.kind == Opening::Kind::rebound || opening.is_of_soft_stop();
+  const bool on_stop = opening.kind == Kind::rebound || opening.is_of_soft_stop();
   const auto half = on_stop ? std::nullopt : half_of_free_slips(scene, orbit);
   if (!half) return opened_once(equations, scene, orbit, opening, tolerance);
   const auto begun = opened_once(equations, scene, *half, {opening.kind, opening.event % half->size()}, tolerance);
