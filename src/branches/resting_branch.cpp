@@ -203,7 +203,9 @@ void RestingBranch::end(double last, const Orbit& good, double beyond, const std
   }
   SpecialKind kind = SpecialKind::chatter_limit;
   // nearby, flights are too short to be told from rest
-  if (const auto tangency = release_tangency(at.scene, stop_, settings_.along, 1e-9 * (std::abs(last) + width_)))
+  const double release = good.events.back().phase + good.events.back().rest;
+  if (const auto tangency =
+          release_tangency(at.scene, stop_, release, settings_.along, 1e-9 * (std::abs(last) + width_)))
     kind = SpecialKind::release_tangency, at.scene = scene(*tangency);
   else if (other && rests_of(*other) == rests_of(good))
     kind = SpecialKind::graze;

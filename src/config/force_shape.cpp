@@ -19,6 +19,14 @@ const Setting* given_order(const Settings& settings) {
   return nullptr;
 }
 
+/// The number of an order of the force along which motion is followed, from 0 if it isn't given.
+std::optional<Parameter> followed_order(const Settings& settings) {
+  for (const std::string_view key : {"along", "across"})
+    if (const auto followed = settings.followed(key); followed && followed->role() == Role::force_order)
+      return followed;
+  return std::nullopt;
+}
+
 /// Throws ConfigError if there are orders beside a force that has its own course.
 void check_orders(const Settings& settings, const std::string& shape) {
   if (const Setting* const order = given_order(settings))
@@ -32,12 +40,15 @@ Waveform waveform_of(const Settings& settings) {
   if (has_force_table(settings)) return harmonics_of_table(settings) > 0 ? Waveform::orders : Waveform::table;
   const auto chosen = std::ranges::find(force_shapes, settings.text(settings.scene_section, "force_shape"));
   const auto waveform = static_cast<Waveform>(chosen - force_shapes.begin());
-  return waveform == Waveform::sine && given_order(settings) != nullptr ? Waveform::orders : waveform;
+  const bool has_orders = given_order(settings) != nullptr || followed_order(settings);
+  return waveform == Waveform::sine && has_orders ? Waveform::orders : waveform;
 }
 
 std::string_view key_of_shape(const Settings& settings) {
   if (has_force_table(settings)) return "force_table";
-  return waveform_of(settings) == Waveform::orders ? std::string_view(given_order(settings)->key->name) : "force_shape";
+  if (waveform_of(settings) != Waveform::orders) return "force_shape";
+  const Setting* const order = given_order(settings);
+  return order != nullptr ? std::string_view(order->key->name) : followed_order(settings)->key();
 }
 
 Parameter amplitude_of_order(Parameter order, bool is_si) {
@@ -74,8 +85,10 @@ void check_force_shape(const Settings& settings) {
       fail(*place,
            in_quotes(shaking.key()) + " beside " + shape +
                "; what is shaken moves as a sine, so far beside a force that is one, too: leave out one of them");
-  if (const Setting* const along = settings.find("branch", "along"))
-    fail(along->location, "[branch] beside " + shape + "; a branch follows motion under a sine so far: leave out " +
+  const Setting* const along = settings.find("branch", "along");
+  if (along != nullptr && waveform != Waveform::orders)
+    fail(along->location, "[branch] beside " + shape +
+                              "; a branch follows motion under a sine, or several orders of one, so far: leave out " +
                               std::string(key) + ", or follow the motion by sweep.follow");
 }
 

@@ -101,15 +101,14 @@ Key key_of(const TableKey& table, Parameter restitution, bool is_si) {
   return key;
 }
 
-/// The keys along which a motion can be followed: none is the friction of a loose mass, of a force that is no sine, or
-/// of the motion of one stop by itself.
+/// The keys along which a motion can be followed: none is the friction of a loose mass, of a force in pieces, or of the
+/// motion of one stop by itself.
 std::vector<std::string_view> keys_to_follow() {
   std::vector<std::string_view> keys;
   for (const Parameter parameter : all_parameters) {
     const bool is_its_friction = parameter.is_loose() && parameter.role() == Role::friction;
     if (parameter.role() != Role::start && parameter.role() != Role::force_shape &&
-        parameter.role() != Role::force_order && parameter.role() != Role::stop_motion &&
-        !parameter.row().is_with_unit && !is_its_friction)
+        parameter.role() != Role::stop_motion && !parameter.row().is_with_unit && !is_its_friction)
       keys.push_back(parameter.key());
   }
   return keys;

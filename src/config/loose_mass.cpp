@@ -18,11 +18,6 @@ constexpr Parameter loose_mass("loose_mass");
   fail(location, what + " conflicts with 'loose_mass'; " + way_out);
 }
 
-/// The parameter along which a branch is followed, or the second one of a curve.
-std::optional<Parameter> followed(const Settings& settings, const std::string& key) {
-  return settings.find("branch", key) != nullptr ? Parameter::of(settings.text("branch", key)) : std::nullopt;
-}
-
 /// Keys of a loose mass need the mass.
 void check_completeness(const Settings& settings) {
   for (const Parameter parameter : all_parameters) {
@@ -31,7 +26,7 @@ void check_completeness(const Settings& settings) {
     fail(given->key_location, in_quotes(given->key->name) + " without 'loose_mass'; give that, or leave it out");
   }
   for (const std::string key : {"along", "across"})
-    if (const auto of = followed(settings, key); of && of->is_loose() && settings.given(loose_mass) == nullptr)
+    if (const auto of = settings.followed(key); of && of->is_loose() && settings.given(loose_mass) == nullptr)
       fail(settings.find("branch", key)->location,
            key + " = " + in_quotes(of->key()) + " without 'loose_mass'; give that, or follow another key");
 }
@@ -99,8 +94,8 @@ void check_main_mass(const Settings& settings) {
 
 /// Refuses a parameter that a scene with a loose mass doesn't have, or can't be followed along.
 void check_followed(const Settings& settings, const std::string& key, const Setting* range) {
-  if (!followed(settings, key)) return;
-  const Parameter parameter = *followed(settings, key);
+  if (!settings.followed(key)) return;
+  const Parameter parameter = *settings.followed(key);
   const Setting& place = *settings.find("branch", key);
   const std::string asked = key + " = " + in_quotes(parameter.key());
   if (parameter.role() == Role::friction || parameter == "stop_amplitude")
@@ -119,7 +114,7 @@ void check_followed(const Settings& settings, const std::string& key, const Sett
 }
 /// Refuses a branch, or a curve, that isn't followed beside a loose mass.
 void check_branch(const Settings& settings) {
-  const std::optional<Parameter> along = followed(settings, "along");
+  const std::optional<Parameter> along = settings.followed("along");
   if (!along) return;
   for (const Own& friction : {friction_of(settings), loose_friction_of(settings)})
     if (friction.place != nullptr)

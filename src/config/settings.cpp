@@ -157,6 +157,10 @@ const Setting* Settings::given(Parameter parameter) const {
 
 const Setting* Settings::given_symmetric_stops() const { return given(is_si() ? Parameter("gap") : Parameter("xs")); }
 
+std::optional<Parameter> Settings::followed(std::string_view key) const {
+  return find("branch", key) != nullptr ? Parameter::of(text("branch", key)) : std::nullopt;
+}
+
 std::string Settings::text(std::string_view section, std::string_view name) const {
   return value_of<std::string>(*this, section, name);
 }

@@ -76,6 +76,9 @@ struct Settings {
   /// The setting that places both stops: xs, of a machine gap.
   [[nodiscard]] const Setting* given_symmetric_stops() const;
 
+  /// The parameter that a branch is followed along, or the second one of a curve, "across"; nothing if none is given.
+  [[nodiscard]] std::optional<Parameter> followed(std::string_view key) const;
+
   /// The value given for a key of that type, or its default.
   [[nodiscard]] std::string text(std::string_view section, std::string_view name) const;
   [[nodiscard]] double number(std::string_view section, std::string_view name) const;

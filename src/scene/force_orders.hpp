@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
+#include <vector>
 
 #include "math/number.hpp"
 
@@ -60,6 +63,15 @@ struct ForceOrders {
   [[nodiscard]] Number size(std::size_t order) const { return norm(of[order - 1].in_phase, of[order - 1].quadrature); }
   [[nodiscard]] bool is_zero(std::size_t order) const {
     return is_always_zero(of[order - 1].in_phase) && is_always_zero(of[order - 1].quadrature);
+  }
+  /// ds/dtheta.
+  [[nodiscard]] ForceOrders derivative() const {
+    ForceOrders by_theta;
+    for (std::size_t i = 0; i < most; ++i) {
+      const auto j = static_cast<double>(i + 1);
+      by_theta.of[i] = {-j * of[i].quadrature, j * of[i].in_phase};
+    }
+    return by_theta;
   }
   /// Whether there is none.
   [[nodiscard]] bool is_zero() const { return highest() == 1 && is_zero(1); }
@@ -140,6 +152,27 @@ template <class Number>
   const auto turns =
       detail::RisingPhase<Number>(orders, sign, Number(sign * needed / f)).first(begin, Number(begin + 1));
   return turns ? std::optional<Number>(part_of_turn(*turns)) : std::nullopt;
+}
+
+/// Phases, rad, -pi ... pi, at which the sum of some orders, times a sign, has a maximum.
+[[nodiscard]] inline std::vector<double> crests_of(const ForceOrders<double>& orders, double sign) {
+  if (orders.highest() == 1) return {std::atan2(sign * orders.of[0].in_phase, sign * orders.of[0].quadrature)};
+  const ForceOrders<double> slope = orders.derivative();
+  const detail::RisingPhase<double> stops_to_rise(slope, -sign, 0.0);
+  constexpr double end = 0.5, apart = 1e-9;  // turns
+  std::vector<double> crests;
+  for (auto at = stops_to_rise.first(-end, end); at; at = stops_to_rise.first(*at + apart, end))
+    crests.push_back(2 * pi<double>() * *at);
+  return crests;
+}
+
+/// The one at which the sum, times the sign, is greatest; one that it has.
+[[nodiscard]] inline double crest_of(const ForceOrders<double>& orders, double sign) {
+  const auto height = [&](double at) {
+    return sign * orders.derivatives(SineCosine<double>{std::sin(at), std::cos(at)})[0];
+  };
+  const std::vector<double> crests = crests_of(orders, sign);
+  return *std::ranges::max_element(crests, {}, height);
 }
 
 }  // namespace scene

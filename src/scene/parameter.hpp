@@ -56,11 +56,15 @@ class Parameter {
   [[nodiscard]] constexpr std::string_view long_name(bool is_si) const {
     return (is_si && is_in("machine") ? row().in_machine : row().in_scene).long_name;
   }
+  /// Whether it is of an even order of the force, which half a period later isn't its opposite.
+  [[nodiscard]] constexpr bool is_of_even_order() const {
+    return role() == Role::force_order && (key().back() - '0') % 2 == 0;
+  }
   /// Whether a scene that is its own mirror image stays so if the parameter changes; a stiffness moves the equilibrium
   /// of a load.
   [[nodiscard]] constexpr bool keeps_symmetry() const {
     return side() == Side::none && role() != Role::load && role() != Role::loose_load && role() != Role::force_shape &&
-           role() != Role::force_order;
+           !is_of_even_order();
   }
 
   friend constexpr bool operator==(Parameter, Parameter) = default;

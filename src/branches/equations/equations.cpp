@@ -59,16 +59,14 @@ bool add_flights(const OrbitEquations& of, const FollowedScene& scene, const Orb
 First rate_of_force(const SceneNumbers<First>& p, const OrbitEvent& event) {
   const First phase(event.phase, by_begin), v(event.before, by_before);
   const First relaxation = p.soft_stop(event.side).relaxation();
-  const auto [f, lead] = p.force();
-  const First a = f * sin(phase + lead) + p.oscillator.load - 2 * p.oscillator.damping * v -
+  const First a = p.force_at(phase).value + p.oscillator.load - 2 * p.oscillator.damping * v -
                   p.oscillator.stiffness * (p.position(event.side) - relaxation * v) -
                   sign_of(event.heading()) * p.friction.kinetic;
   return v + relaxation * a;
 }
 /// The force on a mass at rest on a stop.
 First force_on_stop(const SceneNumbers<First>& p, const OrbitEvent& event) {
-  const auto [f, lead] = p.force();
-  return f * sin(First(event.phase, by_begin) + lead) + p.oscillator.load -
+  return p.force_at(First(event.phase, by_begin)).value + p.oscillator.load -
          p.oscillator.stiffness * p.position(event.side);
 }
 /// Of a halt the distance from a stop, or what the force lacks of a level of friction.

@@ -23,7 +23,7 @@ namespace clatter::branches {
 template <class Function>
 decltype(auto) with_arcs(const Scene& scene, Function&& function, bool stiffness_varies = false) {
   const Oscillator oscillator = oscillator_in_frame(scene);
-  if (stiffness_varies || oscillator.stiffness != 1.0)
+  if (stiffness_varies || oscillator.stiffness != 1.0 || oscillator.shape.has_orders())
     return with_smooth_effects<true>(oscillator, std::forward<Function>(function));
   return with_smooth_effects<false>(oscillator, std::forward<Function>(function));
 }
@@ -186,24 +186,23 @@ class Flights {
     return {beyond, end.v};
   }
 
-  /// Calls `function(arc, response)` with motion without events: the response to the force, free or in contact with a
-  /// soft stop, and its arc from phase 0 on. Phases of the response are those of the force.
+  /// Motion without events less its mean: the response to each order of the force, free or in contact with a soft stop,
+  /// by the phase of the force.
+  [[nodiscard]] ForceOrders<Number> response(Side pressed) const {
+    return with_constants(pressed, [&](const auto& constants) { return response_of(constants); });
+  }
+  /// Calls `function(arc)` with that motion from phase 0 on.
   template <class Function>
   decltype(auto) with_response(Side pressed, Function&& function) const {
     using std::cos, std::sin;
-    const Number sine = sin(lead_), cosine = cos(lead_);
-    if (pressed == Side::none) {
-      const Response<Number> of_force = free_response();
-      return function(arc_from(constants_, Number(constants_.equilibrium + of_force.displacement(sine, cosine)),
-                               of_force.velocity(p_.oscillator.frequency, sine, cosine), Number(0)),
-                      of_force);
-    }
-    return soft_.with_constants(pressed, [&](const auto& c) {
-      const Response<Number> of_force = response_to(Number(c.k - p_.oscillator.frequency * p_.oscillator.frequency),
-                                                    c.h, c.f, p_.oscillator.frequency);
-      return function(arc_beside(c, c.origin, Number(c.balance + of_force.displacement(sine, cosine)),
-                                 of_force.velocity(p_.oscillator.frequency, sine, cosine), Number(0)),
-                      of_force);
+    return with_constants(pressed, [&](const auto& constants) {
+      Number x = 0, v = 0;
+      response_of(constants).each({sin(lead_), cos(lead_)}, [&](int j, const Number& value, const Number& slope) {
+        x += value, v += static_cast<double>(j) * constants.nu * slope;
+      });
+      if (pressed == Side::none)
+        return function(arc_from(constants_, Number(constants_.equilibrium + x), v, Number(0)));
+      return function(arc_beside(constants, constants.origin, Number(constants.balance + x), v, Number(0)));
     });
   }
 
@@ -235,7 +234,8 @@ class Flights {
       : p_(parameters),
         lead_(force.lead),
         constants_(motion::ArcConstants<Number, E>::of(p_.oscillator.damping, force.amplitude, p_.oscillator.frequency,
-                                                       p_.oscillator.load, p_.oscillator.stiffness)),
+                                                       p_.oscillator.load, p_.oscillator.stiffness,
+                                                       p_.oscillator.shape)),
         soft_(constants_, p_.stops) {
     if (!is_always_zero(p_.friction.kinetic)) slips_.emplace(constants_, p_.friction, p_.stops);
   }
@@ -272,11 +272,24 @@ class Flights {
     return of - turn * std::round((static_cast<double>(of) + quarter) / turn);
   }
 
-  [[nodiscard]] Response<Number> free_response() const {
-    if constexpr (E.stiffness)
-      return response_to(Number(p_.oscillator.stiffness - p_.oscillator.frequency * p_.oscillator.frequency),
-                         p_.oscillator.damping, constants_.f, p_.oscillator.frequency);
-    return steady_response(p_.oscillator.damping, constants_.f, p_.oscillator.frequency);
+  template <Effects of>
+  [[nodiscard]] static ForceOrders<Number> response_of(const motion::ArcConstants<Number, of>& c) {
+    ForceOrders<Number> all;
+    if constexpr (!of.stiffness) {
+      const Response<Number> unit = steady_response(c.h, c.f, c.nu);
+      all.of[0] = {unit.in_phase, unit.quadrature};
+      return all;
+    } else {
+      for (std::size_t i = 0; i < all.of.size(); ++i) {
+        const Number nu = static_cast<double>(i + 1) * c.nu;
+        const ForceOrder<Number> sine{Number(1), Number(0)}, none{};
+        const auto& [a, b] = c.has_orders() ? c.shape.orders.of[i] : i == 0 ? sine : none;
+        if (is_always_zero(a) && is_always_zero(b)) continue;
+        const Response<Number> unit = response_to(Number(c.k - nu * nu), c.h, c.f, nu);
+        all.of[i] = {unit.in_phase * a - unit.quadrature * b, unit.in_phase * b + unit.quadrature * a};
+      }
+      return all;
+    }
   }
 
   /// A contact with a soft stop, or an interruption of one. A short one is a Taylor polynomial, which keeps the digits
@@ -295,13 +308,13 @@ class Flights {
     constexpr std::size_t terms = 7;  // 1e-2^7 / 7! is rounding
     const auto& c = arc.constants();
     std::array<Number, terms + 1> x{Number(0), m.v, m.a};  // its derivatives, by eq. 3
-    Number force = c.f, drive = m.sine, next = m.cosine;
-    for (std::size_t k = 1; k + 2 <= terms; ++k) {
-      force *= c.nu;
-      x[k + 2] = force * next - 2 * c.h * x[k + 1] - c.spring(x[k]);
-      const Number turn = -drive;
-      drive = next, next = turn;
-    }
+    motion::with_force_terms<terms>(c, c.f, {m.sine, m.cosine}, Number(1), [&](auto&& force) {
+      double factorial = 1;
+      for (std::size_t k = 1; k + 2 <= terms; ++k) {
+        factorial *= static_cast<double>(k);
+        x[k + 2] = factorial * force(k) - 2 * c.h * x[k + 1] - c.spring(x[k]);
+      }
+    });
     Number mean = 0, mean_a = 0;  // of velocity and acceleration
     for (std::size_t k = terms; k-- > 1;) {
       const Number share = time / static_cast<double>(k + 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -42,6 +43,12 @@ struct StartProblem : FollowedScene, point::RunSettings {
   return value_of(scene.given, parameter);
 }
 
+/// A force at a phase, and its derivative by that.
+template <class Number>
+struct PhasedForce {
+  Number value, slope;
+};
+
 /// The numbers of a computed scene, of a type that may carry derivatives.
 /// They have each impact rebound: one that is too slow for that ends a branch.
 template <class Number>
@@ -81,6 +88,15 @@ struct SceneNumbers : BasicScene<Number> {
   [[nodiscard]] LeadingForce<Number> force() const {
     if (this->loose.ratio != 0) return force_on_ground(this->oscillator, this->shaking);
     return force_in_frame(this->oscillator, this->shaking);
+  }
+  /// That force at a phase, rad, and its derivative by the phase.
+  [[nodiscard]] PhasedForce<Number> force_at(const Number& phase) const {
+    using std::cos, std::sin;
+    const auto [f, lead] = force();
+    const Number sine = sin(phase + lead), cosine = cos(phase + lead);
+    if (!this->oscillator.shape.has_orders()) return {f * sine, f * cosine};
+    const auto s = this->oscillator.shape.orders.derivatives({sine, cosine});
+    return {f * s[0], f * s[1]};
   }
 };
 

@@ -21,8 +21,8 @@ void each_flight(const FollowedScene& scene, const Orbit& orbit, Function&& func
   with_arcs(scene, [&]<Effects E>() {
     const Flights<double, E> flights{numbers_of<double>(scene)};
     if (orbit.size() == 0)
-      return flights.with_response(
-          orbit.pressed, [&](const auto& arc, const auto&) { function(arc, 0.0, flights.constants().period); });
+      return flights.with_response(orbit.pressed,
+                                   [&](const auto& arc) { function(arc, 0.0, flights.constants().period); });
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       OrbitEvent from = orbit.event(i);
       const OrbitEvent to = orbit.event(i + 1);

@@ -76,14 +76,11 @@ Moving moving_from_release(const FollowedScene& scene, const Orbit& orbit, Param
   m.stiffness_varies = varies_stiffness(scene, parameter);
   const auto p = numbers_of<Four>(
       scene, [&](auto& given) { set(given, parameter, Four(value_of(scene, parameter), by_parameter)); });
-  // f sin(phase + lead) + load = k x at a release
-  const LeadingForce<Along> force = m.p.force();
-  const auto release = [&](const OrbitEvent& rest) {
+  const auto release = [&](const OrbitEvent& rest) {  // where force + load = k x
     Along phase(rest.phase + rest.rest);
-    const double of_force = phase.value + force.lead.value, sine = std::sin(of_force), cosine = std::cos(of_force);
-    const Along needed = m.p.oscillator.stiffness * m.p.position(rest.side) - m.p.oscillator.load;
-    phase.slope[0] =
-        (needed.slope[0] - force.amplitude.slope[0] * sine) / (force.amplitude.value * cosine) - force.lead.slope[0];
+    const PhasedForce<Along> force = m.p.force_at(phase);
+    const Along left = force.value + m.p.oscillator.load - m.p.oscillator.stiffness * m.p.position(rest.side);
+    phase.slope[0] = -left.slope[0] / force.slope.value;
     return phase;
   };
   const auto add_events = [&]<Effects E>() {
@@ -150,6 +147,10 @@ Along harmonic(const Moving& moving) {
   const SceneNumbers<Along>& p = moving.p;
   const LeadingForce<Along> force = p.force();
   Along re = force.amplitude * sin(force.lead) / 2, im = -force.amplitude * cos(force.lead) / 2;
+  if (p.oscillator.shape.has_orders()) {
+    const auto& [in_phase, quadrature] = p.oscillator.shape.orders.of[0];
+    re = force.amplitude * quadrature / 2, im = -force.amplitude * in_phase / 2;
+  }
   for (const MovingEvent& event : moving.events) {
     if (!is_impact(event.kind)) continue;
     const Along jump = jump_of_velocity(p, event.kind, event.side, event.coordinate) / moving.period;

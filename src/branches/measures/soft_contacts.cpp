@@ -61,7 +61,7 @@ SoftContacts contacts_of_one(const Moving& moving) {
   const Flights<Along, E> flights(moving.p);
   SoftContacts sum;
   if (moving.events.empty() && moving.pressed != Side::none)
-    flights.with_response(moving.pressed, [&](const auto& arc, const auto&) {
+    flights.with_response(moving.pressed, [&](const auto& arc) {
       add_contact(arc, moving.p.soft_stop(moving.pressed), Along(0), moving.period, sum);
     });
   const auto with_arc = [&](std::size_t i, const Along& end, const auto& function) {

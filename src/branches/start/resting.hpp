@@ -11,13 +11,15 @@
 namespace clatter::branches {
 
 /// The phase in 0 ... 2 pi at which the force takes a mass at rest off a stop: the pressing force is zero and falls.
-/// Nothing if it always or never presses.
-[[nodiscard]] std::optional<double> release_phase(const FollowedScene& scene, Side stop);
+/// Nothing if it always or never presses. A force of several orders may do so at several: it is the next one after a
+/// phase, in rad.
+[[nodiscard]] std::optional<double> release_phase(const FollowedScene& scene, Side stop, double after = 0);
 
-/// The value of a parameter within a distance of the scene's at which the release from a stop vanishes, as the force
-/// presses all the time: spring, load and force amplitude balance. Nothing if there is none.
-[[nodiscard]] std::optional<double> release_tangency(const FollowedScene& scene, Side stop, Parameter parameter,
-                                                     double within);
+/// The value of a parameter within a distance of the scene's at which the release from a stop, at a phase near
+/// `release`, vanishes as the force still presses at its crest: spring, load and force balance. Nothing if there is
+/// none.
+[[nodiscard]] std::optional<double> release_tangency(const FollowedScene& scene, Side stop, double release,
+                                                     Parameter parameter, double within);
 
 /// The periodic motion that rests on a stop until its release from there, and again after at most so many forcing
 /// periods: the run from the release is all there is to find. It begins with the first impact after the release; its

@@ -105,6 +105,10 @@ void require_friction_to_follow(const point::Problem& problem) {
     throw StartError(
         "branches of motion under dry friction are followed without a loose mass alone; sweep the parameter with "
         "follow instead, or leave out friction or loose_mass");
+  if (has_friction(problem.friction) && problem.oscillator.shape.has_orders())
+    throw StartError(
+        "branches of motion under dry friction are followed under a sine alone; sweep the parameter with follow "
+        "instead, or leave out friction or the orders of the force");
 }
 
 /// Gives each halt the side that the mass slips to from there, which is that of the next event, and the soft stop that
@@ -248,6 +252,9 @@ void require_start_in_range(const FollowedScene& scene, Parameter parameter, con
   if (shaken.shaking.stops != 0 && shaken.shaking.base != 0)
     throw SettingError("stops and base can't be shaken at once; " + asked + " needs " +
                        (parameter == Parameter("stop_amplitude") ? "base_amplitude" : "stop_amplitude") + " = 0");
+  if (scene.oscillator.shape.has_orders() && is_shaken(shaken.shaking))
+    throw SettingError(asked +
+                       " shakes what moves as a sine, so far under a force that is one, too; leave out its orders");
 }
 
 double speed_scale(const FollowedScene& scene, const Orbit& orbit) {
@@ -292,11 +299,11 @@ Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric
   if (problem.oscillator.forcing == 0)
     throw SettingError(std::string("a branch needs a force, whose periods it counts: set ") +
                        (is_si ? "machine.force" : "scene.f"));
-  if (!problem.oscillator.shape.is_sine())
-    throw SettingError(std::string("a branch follows motion under a sine so far: leave out ") +
-                       (is_si ? "machine." : "scene.") +
-                       (problem.oscillator.shape.table != nullptr ? "force_table" : "force_shape") +
-                       ", or follow the motion by sweep.follow");
+  if (problem.oscillator.shape.is_in_pieces())
+    throw SettingError(
+        std::string("a branch follows motion under a sine, or several orders of one, so far: leave out ") +
+        (is_si ? "machine." : "scene.") + (problem.oscillator.shape.table != nullptr ? "force_table" : "force_shape") +
+        ", or follow the motion by sweep.follow");
   const MotionStart near = period == 0 ? settled(problem) : near_start(problem, period);
   if (has_loose_mass(problem.loose)) return start_in_housing(start, problem, near, symmetric);
   if (has_friction(problem.friction)) return slipping_start(problem, near, symmetric);

@@ -21,10 +21,8 @@ using Kind = Opening::Kind;
 
 /// Acceleration at an event of a soft stop, that of the free motion.
 double acceleration(const SceneNumbers<double>& p, const OrbitEvent& event, double offset) {
-  const LeadingForce<double> force = p.force();
-  return force.amplitude * std::sin(event.phase + force.lead) + p.oscillator.load -
-         2 * p.oscillator.damping * event.before - p.oscillator.stiffness * (p.position(event.side) + offset) -
-         sign_of(event.heading()) * p.friction.kinetic;
+  return p.force_at(event.phase).value + p.oscillator.load - 2 * p.oscillator.damping * event.before -
+         p.oscillator.stiffness * (p.position(event.side) + offset) - sign_of(event.heading()) * p.friction.kinetic;
 }
 
 /// An orbit with a graze as if a contact or an interruption that lasts for `advance` of the phase began and ended

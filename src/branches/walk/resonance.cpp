@@ -1,6 +1,7 @@
 #include "branches/walk/resonance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -9,20 +10,22 @@
 namespace clatter::branches {
 namespace {
 
-/// A displacement's amplitude, with the phase that it has beside what is shaken, and its derivative by the parameter.
+/// The amplitude of an order of displacement, with the phase that it has beside what is shaken, and its derivative by
+/// the parameter.
 struct ComplexAmplitude {
   std::complex<double> value, slope;
 };
+using Amplitudes = std::array<ComplexAmplitude, ForceOrders<double>::most>;
 
-ComplexAmplitude amplitude(const FollowedScene& scene, Side pressed, Parameter parameter) {
-  return with_arcs(scene, [&]<Effects E>() -> ComplexAmplitude {
+Amplitudes amplitudes(const FollowedScene& scene, Side pressed, Parameter parameter) {
+  return with_arcs(scene, [&]<Effects E>() {
     const Flights<Along, E> flights{numbers_along(scene, parameter)};
-    const Along sine = sin(flights.lead()), cosine = cos(flights.lead());
-    return flights.with_response(pressed, [&](const auto&, const Response<Along>& of_force) -> ComplexAmplitude {
-      const Along in_phase = of_force.in_phase * cosine - of_force.quadrature * sine,
-                  quadrature = of_force.in_phase * sine + of_force.quadrature * cosine;
-      return {{in_phase.value, quadrature.value}, {in_phase.slope[0], quadrature.slope[0]}};
+    const ForceOrders<Along> response = flights.response(pressed);
+    Amplitudes all;
+    response.each({sin(flights.lead()), cos(flights.lead())}, [&](int j, const Along& value, const Along& slope) {
+      all[static_cast<std::size_t>(j) - 1] = {{slope.value, value.value}, {slope.slope[0], value.slope[0]}};
     });
+    return all;
   });
 }
 
@@ -34,12 +37,14 @@ bool may_resonate_between(const OrbitEquations& equations, const Vector& one, co
   if (orbit.size() > 0 || has_loose_mass(equations.scene_at(one).loose)) return false;
   // from two sides of a pole within a step the tangents miss by three times the amplitude or more
   constexpr double rough = 0.5;
-  const auto here = amplitude(equations.scene_at(one), orbit.pressed, axis.parameter),
-             there = amplitude(equations.scene_at(other), orbit.pressed, axis.parameter);
-  const double ahead = (other.back() - one.back()) * axis.unit,
-               most = rough * std::max(std::abs(here.value), std::abs(there.value));
-  const std::complex<double> change = there.value - here.value;
-  return std::abs(change - ahead * here.slope) > most || std::abs(change - ahead * there.slope) > most;
+  const Amplitudes here = amplitudes(equations.scene_at(one), orbit.pressed, axis.parameter),
+                   there = amplitudes(equations.scene_at(other), orbit.pressed, axis.parameter);
+  const double ahead = (other.back() - one.back()) * axis.unit;
+  return !std::ranges::equal(here, there, [&](const ComplexAmplitude& from, const ComplexAmplitude& to) {
+    const double most = rough * std::max(std::abs(from.value), std::abs(to.value));
+    const std::complex<double> change = to.value - from.value;
+    return !(std::abs(change - ahead * from.slope) > most) && !(std::abs(change - ahead * to.slope) > most);
+  });
 }
 
 }  // namespace clatter::branches

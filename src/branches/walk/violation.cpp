@@ -122,18 +122,17 @@ bool points_right(const OrbitEvent& event) {
 template <Effects E>
 std::optional<Violation> response_violation(const Flights<double, E>& flights, const Orbit& orbit) {
   const SceneNumbers<double>& p = flights.parameters();
-  return flights.with_response(
-      orbit.pressed, [&](const auto& arc, const Response<double>& response) -> std::optional<Violation> {
-        const Path path{0, 0, 0.0, orbit.advance() / p.oscillator.frequency, Side::none};
-        if (orbit.pressed != Side::none) return separates(p.soft_stop(orbit.pressed), arc, path);
-        for (const Side side : {Side::lower, Side::upper})  // begins beyond the stop
-          if (const double sign = sign_of(side); sign * (arc.start().x - p.position(side)) > 0) {
-            const double turn = std::atan2(sign * response.in_phase, sign * response.quadrature) - flights.lead();
-            const Event::Kind turns = is_soft(p.stops, side) ? Event::Kind::separation : Event::Kind::impact;
-            return Violation{Violation::Kind::passes_through, 0, {side, turn, 0.0, turns}};
-          }
-        return cut_short(p, arc, path);
-      });
+  return flights.with_response(orbit.pressed, [&](const auto& arc) -> std::optional<Violation> {
+    const Path path{0, 0, 0.0, orbit.advance() / p.oscillator.frequency, Side::none};
+    if (orbit.pressed != Side::none) return separates(p.soft_stop(orbit.pressed), arc, path);
+    for (const Side side : {Side::lower, Side::upper})  // begins beyond the stop
+      if (const double sign = sign_of(side); sign * (arc.start().x - p.position(side)) > 0) {
+        const double turn = crest_of(flights.response(Side::none), sign) - flights.lead();
+        const Event::Kind turns = is_soft(p.stops, side) ? Event::Kind::separation : Event::Kind::impact;
+        return Violation{Violation::Kind::passes_through, 0, {side, turn, 0.0, turns}};
+      }
+    return cut_short(p, arc, path);
+  });
 }
 
 /// A flight between two events of an orbit, and how the main mass moves on it.
