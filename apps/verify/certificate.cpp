@@ -122,8 +122,7 @@ void read_periodic(const Field& root, Certificate& certificate) {
   if (const auto word = root.find("word"))
     certificate.word = word_of(*word, certificate.scene.loose && certificate.scene.has_stops());
   if (const auto symmetric = root.find("symmetric")) certificate.symmetric = symmetric->flag();
-  if (certificate.scene.f.ball().is_zero())
-    root.get("claim").refuse("periodic motion without a force", "claim a transient");
+  if (!certificate.scene.has_force()) root.get("claim").refuse("periodic motion without a force", "claim a transient");
   const auto multipliers = root.find("multipliers");
   if (!multipliers) return;
   const auto list = multipliers->items();
@@ -173,6 +172,15 @@ Certificate::SceneNumbers slopes_of(const Field& field, const Certificate::Scene
                                     soft ? slope(*stop, "stiffness") : Number(),
                                     soft ? slope(*stop, "damping") : Number()};
   }
+  slopes.orders = scene.orders;
+  for (Certificate::OrderNumbers& order : slopes.orders) order.sine = order.cosine = Number();
+  if (const auto orders = field.find("orders"))
+    for (const Field& item : orders->items()) {
+      const long number = item.get("order").count(1, most_order);
+      const auto of = std::ranges::find(slopes.orders, number, &Certificate::OrderNumbers::order);
+      if (of == slopes.orders.end()) item.refuse("is of an order that the scene hasn't", "give the scene that, with 0");
+      of->sine = slope(item, "sin"), of->cosine = slope(item, "cos");
+    }
   if (!moves) field.refuse("leaves the scene as it is", "give the slope of a number that the parameter changes");
   return slopes;
 }
@@ -203,7 +211,7 @@ void read_start(const Field& start, Certificate& certificate) {
   if (const auto released = start.find("released")) {
     if (certificate.scene.loose) released->refuse("is given beside a loose mass", "give x and v");
     certificate.released = released->side();
-    if (certificate.scene.f.ball().is_zero()) released->refuse("needs a force", "give x and v");
+    if (!certificate.scene.has_force()) released->refuse("needs a force", "give x and v");
     return;
   }
   certificate.start_x = read("x"), certificate.start_v = read("v");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <optional>
@@ -91,12 +92,23 @@ struct Certificate {
     Number friction{}, friction_static{};
     std::array<std::optional<LawNumbers>, 2> laws{};  ///< [wall] in place of R
   };
+  /// A further order of the force; of the first one the cosine alone, whose sine is f.
+  struct OrderNumbers {
+    int order;
+    Number sine, cosine;
+  };
   struct SceneNumbers {
     Number h, k, f, nu, load, phase;
     std::array<std::optional<StopNumbers>, 2> stops;
     Number friction{}, friction_static{};
     std::optional<LooseNumbers> loose{};
+    std::vector<OrderNumbers> orders{};  ///< as slopes those of the scene's, in the same places
 
+    [[nodiscard]] bool has_force() const {
+      return f != Number() || std::ranges::any_of(orders, [](const OrderNumbers& order) {
+               return order.sine != Number() || order.cosine != Number();
+             });
+    }
     /// Whether the main mass has events of its own, beside which walls are told from stops.
     [[nodiscard]] bool has_stops() const { return stops[0] || stops[1] || friction_static != Number(); }
   };

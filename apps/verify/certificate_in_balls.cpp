@@ -39,7 +39,7 @@ BasicScene<T> scene_made(const Certificate::SceneNumbers& shape, const Of& of) {
   const auto of_scene = [&](Number In::*member) { return of([=](const In& in) { return in.*member; }); };
   BasicScene<T> scene{of_scene(&In::h),
                       of_scene(&In::k),
-                      of_scene(&In::f),
+                      {},
                       of_scene(&In::nu),
                       of_scene(&In::load),
                       of_scene(&In::phase),
@@ -47,6 +47,21 @@ BasicScene<T> scene_made(const Certificate::SceneNumbers& shape, const Of& of) {
                       of_scene(&In::friction),
                       of_scene(&In::friction_static),
                       shape.friction == shape.friction_static};
+  const auto add_order = [&](int j, const T& sine, const T& cosine) {
+    if (!sine.is_zero() || !cosine.is_zero()) scene.force.orders.push_back({j, sine, cosine});
+  };
+  const auto of_order = [&](std::size_t i, Number Certificate::OrderNumbers::*member) {
+    return of([=](const In& in) { return in.orders[i].*member; });
+  };
+  T first_cosine(0);
+  for (std::size_t i = 0; i < shape.orders.size(); ++i) {
+    const T cosine = of_order(i, &Certificate::OrderNumbers::cosine);
+    if (shape.orders[i].order == 1)
+      first_cosine = cosine;
+    else
+      add_order(shape.orders[i].order, of_order(i, &Certificate::OrderNumbers::sine), cosine);
+  }
+  add_order(1, of_scene(&In::f), first_cosine);
   for (std::size_t i = 0; i < 2; ++i) {
     if (!shape.stops[i]) continue;
     const auto of_stop = [&](Number At::*member) {
@@ -107,6 +122,9 @@ std::vector<Ball> Certificate::values_of_parameter() const {
   for (Number SceneNumbers::*const member :
        {&SceneNumbers::h, &SceneNumbers::k, &SceneNumbers::f, &SceneNumbers::nu, &SceneNumbers::load})
     consider(slopes.*member, scene.*member);  // a phase is counted from anywhere
+  for (std::size_t i = 0; i < scene.orders.size(); ++i)
+    for (Number OrderNumbers::*const member : {&OrderNumbers::sine, &OrderNumbers::cosine})
+      consider(slopes.orders[i].*member, scene.orders[i].*member);
   for (std::size_t i = 0; i < 2; ++i)
     for (Number StopNumbers::*const member :
          {&StopNumbers::position, &StopNumbers::R, &StopNumbers::stiffness, &StopNumbers::damping})

@@ -31,8 +31,13 @@ Rows transposed(const Rows& m) {
 }
 
 Scene values_of(const MovingScene& moving) {
-  Scene scene{
-      moving.h.value, moving.k.value, moving.f.value, moving.nu.value, moving.load.value, moving.phase.value, {}};
+  Scene scene{moving.h.value,
+              moving.k.value,
+              values_of(moving.force),
+              moving.nu.value,
+              moving.load.value,
+              moving.phase.value,
+              {}};
   for (std::size_t i = 0; i < 2; ++i)
     if (const auto& stop = moving.stops[i])
       scene.stops[i] =

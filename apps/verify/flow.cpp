@@ -31,16 +31,34 @@ BasicVector<Number> near_zero(const Number& z) {
 
 template <class Number>
 BasicFlow<Number>::BasicFlow(const Number& h, const Number& k, const Number& load, const Scene& scene)
-    : h_(h), k_(k), f_(scene.f), nu_(scene.nu), load_(load), phase_(scene.phase), lambda_squared_(squared_rate(k, h)) {
+    : h_(h), k_(k), nu_(scene.nu), load_(load), phase_(scene.phase), lambda_squared_(squared_rate(k, h)) {
   sign_ = lambda_squared_.is_positive() ? 1 : lambda_squared_.is_negative() ? -1 : 0;
   if (sign_ != 0) lambda_ = sqrt(abs(lambda_squared_));
-  const Number detuning = squared_rate(k, nu_);
-  resonant_ = h.is_zero() && detuning.is_zero();
-  if (!f_.is_zero() && !resonant_) {
-    const Number quadrature = Number(2) * h * nu_, size = square(detuning) + square(quadrature);
-    sine_part_ = f_ * detuning / size, cosine_part_ = -f_ * quadrature / size;
-  }
-  rate_ = std::max({std::sqrt(std::abs(k.near())), f_.is_zero() ? 0.0 : nu_.near(), 2 * h.near(), 1e-300});
+  for (const BasicOrder<Number>& order : scene.force.orders) parts_.push_back(part_of(order));
+  rate_ = std::max({std::sqrt(std::abs(k.near())), scene.force.highest() * nu_.near(), 2 * h.near(), 1e-300});
+}
+
+template <class Number>
+auto BasicFlow<Number>::part_of(const BasicOrder<Number>& order) const -> Part {
+  Part part{order, Number(order.j) * nu_, false, Number(0), Number(0)};
+  const Number detuning = squared_rate(k_, part.nu);
+  part.resonant = h_.is_zero() && detuning.is_zero();
+  if (part.resonant) return part;
+  const Number quadrature = Number(2) * h_ * part.nu, size = square(detuning) + square(quadrature);
+  const auto& [j, A, B] = order;
+  part.sine = A * detuning / size, part.cosine = -A * quadrature / size;
+  if (!B.is_zero()) part.sine = part.sine + B * quadrature / size, part.cosine = part.cosine + B * detuning / size;
+  return part;
+}
+
+/// At resonance (B sin - A cos) s / (2 nu).
+template <class Number>
+BasicVector<Number> BasicFlow<Number>::Part::at(const Number& s, const Number& sine_then,
+                                                const Number& cosine_then) const {
+  if (!resonant) return {sine * sine_then + cosine * cosine_then, nu * (sine * cosine_then - cosine * sine_then)};
+  const auto [value, turned] = force.template derivatives<2>(sine_then, cosine_then);
+  const Number half = turned / Number(2 * force.j);  // half of A cos - B sin
+  return {-half * s / nu, value * s / Number(2) - half / nu};
 }
 
 template <class Number>
@@ -57,29 +75,32 @@ BasicVector<Number> BasicFlow<Number>::rotation(const Number& s) const {
 }
 
 template <class Number>
-BasicFlow<Number>::Flight::Flight(const BasicFlow& flow, const Number& time, const Number& x, const Number& v)
-    : flow_(flow), theta_(flow.nu_ * time + flow.phase_), free_{x, v} {
-  Number sine, cosine;
-  if (!flow.f_.is_zero()) std::tie(sine, cosine) = sin_cos(theta_);
-  free_ = free_ - particular(Number(0), sine, cosine);
+BasicVector<Number> BasicFlow<Number>::loaded(const Number& s) const {
+  if (load_.is_zero()) return {Number(0), Number(0)};
+  if (!k_.is_zero()) return {load_ / k_, Number(0)};
+  if (h_.is_zero()) return {load_ * square(s) / Number(2), load_ * s};
+  const Number drift = load_ / (Number(2) * h_);
+  return {drift * s, drift};
 }
 
 template <class Number>
-BasicVector<Number> BasicFlow<Number>::Flight::particular(const Number& s, const Number& sine,
-                                                          const Number& cosine) const {
+BasicFlow<Number>::Flight::Flight(const BasicFlow& flow, const Number& time, const Number& x, const Number& v)
+    : flow_(flow), theta_(flow.nu_ * time + flow.phase_), free_{x, v} {
+  free_ = free_ - driven(Number(0)).y;
+}
+
+template <class Number>
+auto BasicFlow<Number>::Flight::driven(const Number& s) const -> Driven {
   const BasicFlow& o = flow_;
-  Vector y{Number(0), Number(0)};
-  if (!o.f_.is_zero() && o.resonant_) {  // -f s cos(theta) / (2 nu)
-    const Number half = o.f_ / Number(2);
-    y = {-half * s * cosine / o.nu_, half * s * sine - half * cosine / o.nu_};
-  } else if (!o.f_.is_zero()) {
-    y = {o.sine_part_ * sine + o.cosine_part_ * cosine, o.nu_ * (o.sine_part_ * cosine - o.cosine_part_ * sine)};
+  Driven sum{{Number(0), Number(0)}, {Number(0), Number(0), Number(0)}};
+  for (const Part& part : o.parts_) {
+    const auto [sine, cosine] = sin_cos(Number(part.force.j) * (theta_ + o.nu_ * s));
+    const auto [value, slope, bend] = part.force.template derivatives<3>(sine, cosine);
+    sum.y = sum.y + part.at(s, sine, cosine);
+    sum.force = {sum.force[0] + value, sum.force[1] + o.nu_ * slope, sum.force[2] + square(o.nu_) * bend};
   }
-  if (o.load_.is_zero()) return y;
-  if (!o.k_.is_zero()) return y + Vector{o.load_ / o.k_, Number(0)};
-  if (o.h_.is_zero()) return y + Vector{o.load_ * square(s) / Number(2), o.load_ * s};
-  const Number drift = o.load_ / (Number(2) * o.h_);
-  return y + Vector{drift * s, drift};
+  sum.y = sum.y + o.loaded(s);
+  return sum;
 }
 
 template <class Number>
@@ -87,29 +108,28 @@ auto BasicFlow<Number>::Flight::at(const Number& s) const -> Instant {
   const BasicFlow& o = flow_;
   const Vector turn = o.rotation(s);
   const Number lean = o.h_ * turn.y;
-  Number sine, cosine;
-  if (!o.f_.is_zero()) std::tie(sine, cosine) = sin_cos(theta_ + o.nu_ * s);
-  const Vector y = particular(s, sine, cosine);
+  const auto& [y, force] = driven(s);
   Instant now;
   now.x = y.x + (turn.x + lean) * free_.x + turn.y * free_.y;
   now.v = y.y - o.k_ * turn.y * free_.x + (turn.x - lean) * free_.y;
   const Number damping = Number(2) * o.h_;
-  now.a = o.load_ - damping * now.v - o.k_ * now.x;
-  if (!o.f_.is_zero()) now.a = now.a + o.f_ * sine;
-  now.j = -damping * now.a - o.k_ * now.v;
-  if (!o.f_.is_zero()) now.j = now.j + o.f_ * o.nu_ * cosine;
-  now.d4 = -damping * now.j - o.k_ * now.a;
-  if (!o.f_.is_zero()) now.d4 = now.d4 - o.f_ * square(o.nu_) * sine;
+  now.a = o.load_ - damping * now.v - o.k_ * now.x + force[0];
+  now.j = -damping * now.a - o.k_ * now.v + force[1];
+  now.d4 = -damping * now.j - o.k_ * now.a + force[2];
   return now;
 }
 
 template <class Number>
 std::pair<Number, Number> BasicFlow<Number>::Flight::further(const Number& s, const Instant& there) const {
   const BasicFlow& o = flow_;
-  const auto [sine, cosine] = sin_cos(theta_ + o.nu_ * s);
-  const Number damping = Number(2) * o.h_, fast = o.f_ * o.nu_ * square(o.nu_);
-  const Number d5 = -damping * there.d4 - o.k_ * there.j - fast * cosine;
-  return {d5, -damping * d5 - o.k_ * there.d4 + fast * o.nu_ * sine};
+  Number third(0), fourth(0);  // derivatives of the force by the time
+  for (const Part& part : o.parts_) {
+    const auto [sine, cosine] = sin_cos(Number(part.force.j) * (theta_ + o.nu_ * s));
+    const auto by_phase = part.force.template derivatives<5>(sine, cosine);
+    third = third + o.nu_ * square(o.nu_) * by_phase[3], fourth = fourth + square(square(o.nu_)) * by_phase[4];
+  }
+  const Number damping = Number(2) * o.h_, d5 = -damping * there.d4 - o.k_ * there.j + third;
+  return {d5, -damping * d5 - o.k_ * there.d4 + fourth};
 }
 
 template <class Number>
@@ -126,9 +146,10 @@ BasicMatrix<Number> BasicFlow<Number>::propagator(const Number& s) const {
 
 template <class Number>
 auto BasicFlow<Number>::response() const -> std::optional<Response> {
-  if (resonant_ || f_.is_zero() || !(k_.is_positive() || k_.is_negative()) || !h_.is_positive()) return std::nullopt;
-  const Number amplitude = sqrt(square(sine_part_) + square(cosine_part_));
-  return Response{load_ / k_, amplitude, sine_part_, cosine_part_};
+  if (parts_.size() != 1 || parts_[0].force.j != 1 || parts_[0].resonant) return std::nullopt;
+  if (!(k_.is_positive() || k_.is_negative()) || !h_.is_positive()) return std::nullopt;
+  const auto& [sine, cosine] = std::tie(parts_[0].sine, parts_[0].cosine);
+  return Response{load_ / k_, sqrt(square(sine) + square(cosine)), sine, cosine};
 }
 
 template class BasicFlow<Ball>;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "linear.hpp"
 #include "scene.hpp"
@@ -40,20 +42,25 @@ class BasicFlow {
     [[nodiscard]] std::pair<Number, Number> further(const Number& s, const Instant& there) const;
 
    private:
-    /// The particular solution: x and v at s, from sine and cosine of the phase.
-    [[nodiscard]] Vector particular(const Number& s, const Number& sine, const Number& cosine) const;
+    /// The particular solution, x and v, and the force with its next two derivatives by the time.
+    struct Driven {
+      Vector y;
+      std::array<Number, 3> force;
+    };
+    [[nodiscard]] Driven driven(const Number& s) const;
 
     const BasicFlow& flow_;
     Number theta_;  ///< phase at s = 0
     Vector free_;   ///< (x, v) less the particular solution at s = 0
   };
 
-  /// The steady response, the only periodic motion without an event if it has one: centre + amplitude sin(theta - lag).
+  /// The steady response to a sine, the only periodic motion without an event if it has one: centre +
+  /// amplitude sin(theta - lag).
   struct Response {
     Number centre, amplitude;
     Number in_phase, quadrature;  ///< centre + in_phase sin(theta) + quadrature cos(theta)
   };
-  /// Nothing if there is none or many.
+  /// Nothing if there is none or many, or of several orders.
   [[nodiscard]] std::optional<Response> response() const;
   /// The derivative of (x, v) after a time by (x, v).
   [[nodiscard]] Matrix propagator(const Number& s) const;
@@ -68,11 +75,24 @@ class BasicFlow {
   /// e^(-h s) cos(lambda s) and e^(-h s) sin(lambda s)/lambda, lambda^2 = k - h^2, also if that is negative or near 0.
   [[nodiscard]] Vector rotation(const Number& s) const;
 
-  Number h_, k_, f_, nu_, load_, phase_;
+  /// The response to an order of the force.
+  struct Part {
+    BasicOrder<Number> force;
+    Number nu;              ///< its frequency
+    bool resonant = false;  ///< h = 0 and k = nu^2: there is no steady response
+    Number sine, cosine;    ///< P and Q of that (eqs. 6 and 44)
+
+    /// x and v a time s after the phase that a flight begins with.
+    [[nodiscard]] Vector at(const Number& s, const Number& sine_then, const Number& cosine_then) const;
+  };
+  [[nodiscard]] Part part_of(const BasicOrder<Number>& order) const;
+  /// x and v that the load alone gives a mass after a time.
+  [[nodiscard]] Vector loaded(const Number& s) const;
+
+  Number h_, k_, nu_, load_, phase_;
+  std::vector<Part> parts_;
   Number lambda_squared_, lambda_;  ///< k - h^2, and the root of its amount if its sign is known
   int sign_ = 0;                    ///< of k - h^2; 0: not known, or 0
-  bool resonant_ = false;           ///< h = 0 and k = nu^2: there is no steady response
-  Number sine_part_, cosine_part_;  ///< P and Q of the steady response (eqs. 6 and 44)
   double rate_ = 1.0;
 };
 

@@ -44,8 +44,7 @@ int Motion::way_of_push() const {
   const Four hull = set_.hull();
   const Scene& scene = acting();
   const Spring spring_now = spring();
-  const Ball sine = sin_cos(scene.nu * hull[1] + scene.phase).first;
-  const Ball push = scene.f * sine + spring_now.load - spring_now.k * hull[0];
+  const Ball push = scene.force_at(hull[1]) + spring_now.load - spring_now.k * hull[0];
   if (push > scene.friction_static) return 1;
   if (push < -scene.friction_static) return -1;
   if (!(abs(push) < scene.friction_static)) throw Undecided("whether friction holds the mass");
@@ -69,16 +68,18 @@ Event Motion::stop_moving(const Ball& end) {
 /// The first phase from a time on at which the force passes the level of friction at a place (eqs. 26 and 65); nothing
 /// if it never does.
 std::optional<Motion::Release> Motion::release_to(int way, const Ball& time, const Ball& x) const {
-  if (scene_.f.is_zero()) return std::nullopt;
+  if (scene_.force.is_zero()) return std::nullopt;
+  if (!scene_.force.is_sine()) throw Undecided("a stick under a force of several orders");
   const Spring acting = spring();
-  const Ball sine = (acting.k * x - acting.load + Ball(way) * scene_.friction_static) / scene_.f;
+  const Ball& f = scene_.force.orders[0].in_phase;
+  const Ball sine = (acting.k * x - acting.load + Ball(way) * scene_.friction_static) / f;
   if (abs(sine) > Ball(1)) return std::nullopt;
   if (!(abs(sine) < Ball(1))) throw Undecided("whether the force ever overcomes friction");
-  const bool rises = (scene_.f * Ball(way)).is_positive();
+  const bool rises = (f * Ball(way)).is_positive();
   const Ball theta = rises ? asin(sine) : Ball::pi() - asin(sine), cosine = sin_cos(theta).second;
   const slong turns = ((scene_.nu * time + scene_.phase - theta) / (Ball(2) * Ball::pi())).floor() + 1;
   const Ball whole = Ball(turns) * Ball(2) * Ball::pi();
-  return Release{way, (theta + whole - scene_.phase) / scene_.nu, acting.k / (scene_.f * scene_.nu * cosine)};
+  return Release{way, (theta + whole - scene_.phase) / scene_.nu, acting.k / (f * scene_.nu * cosine)};
 }
 
 /// Friction holds the mass up to its release, a strike of a loose mass or a time.

@@ -24,7 +24,7 @@ std::vector<BasicFlow<Number>> flows_of(const BasicScene<Number>& scene) {
 Scene both_of(Scene scene) {
   const LooseMass& loose = *scene.loose;
   const Ball both = Ball(1) + loose.mass;
-  scene.h = scene.h / both, scene.k = scene.k / both, scene.f = scene.f / both;
+  scene.h = scene.h / both, scene.k = scene.k / both, scene.force = scene.force.over(both);
   scene.load = (scene.load + loose.mass * loose.load) / both;
   scene.friction = scene.friction / both, scene.friction_static = scene.friction_static / both;
   for (auto& stop : scene.stops)
@@ -33,7 +33,7 @@ Scene both_of(Scene scene) {
 }
 
 Flow still_flow(Scene scene) {
-  scene.f = Ball(0);
+  scene.force = {};
   return {Ball(0), Ball(0), Ball(0), scene};
 }
 
@@ -108,7 +108,7 @@ void Motion::start_on_stop(const Start& start) {
     if (hull[1].is_zero()) {
       if (pressed_ || (rubs() && slide_ == 0))
         throw Undecided("a start on a stop while something holds the loose mass");
-      const Ball push = acting().pressing(side, sin_cos(scene_.nu * start.time + scene_.phase).first);
+      const Ball push = acting().pressing(side, start.time);
       const Ball press = stop.soft ? push : push + scene_.friction_static;
       if (press.is_negative()) return begin(Mode::free, side, 2);
       if (!press.is_positive()) throw Undecided("whether a stop holds the mass at the start");

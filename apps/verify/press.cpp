@@ -63,11 +63,10 @@ Motion::ChatterInHousing::ChatterInHousing(const Motion& motion) : loose_(*motio
     if (margin.which == Of::main && !margin.of(x, v).is_positive())
       throw Undecided("whether a chatter is over before an event of the main mass");
   centre_speed_ = {abs(v), abs(slow.a) + push};
-  const Ball sine = sin_cos(scene.nu * (time_ + window) + scene.phase).first;
-  const Ball a = scene.f * sine + alone.load() - Ball(2) * h_ * v - k_ * x;
+  const Ball a = scene.force_at(time_ + window) + alone.load() - Ball(2) * h_ * v - k_ * x;
   const Ball during = Ball(sign_of(side_)) * (loose_.load - a);
   least_ = during.lower(), most_ = during.upper();
-  jerk_ = abs(scene.f * scene.nu) + Ball(2) * h_ * abs(a) + abs(k_) * abs(v);
+  jerk_ = scene.force.steepest() * scene.nu + Ball(2) * h_ * abs(a) + abs(k_) * abs(v);
   const Ball bend = -both.stiffness() * along_.b - Ball(2) * both.damping() * along_.d;
   kick_ = {q_ * (abs(k_ * along_.b) + Ball(2) * h_ * abs(along_.d)),
            q_ * (abs(k_ * along_.d) + Ball(2) * h_ * abs(bend))};

@@ -3,15 +3,102 @@
 namespace verify {
 namespace {
 
-/// The phase at which the force that presses the mass falls to 0: sin(theta) is what balances it, and decreases for the
-/// force that presses.
+constexpr const char* unknown_release = "whether the force ever releases the mass";
+
+/// A force that presses a mass into a stop, and what holds it against a pull away from there, as a function of the
+/// phase.
+template <class Number>
+struct Press {
+  BasicForce<Number> force;
+  Number sign, constant;
+
+  /// It and its derivative by the phase.
+  [[nodiscard]] std::pair<Number, Number> at(const Number& theta) const {
+    const auto [value, slope] = force.at(theta);
+    return {sign * value + constant, sign * slope};
+  }
+};
+template <class Number>
+Press<Number> press_of(const BasicScene<Number>& scene, Side side) {
+  const Number sign(sign_of(side));
+  return {scene.force, sign, sign * (scene.load - scene.k * scene.stop(side).position) + scene.friction_static};
+}
+
+/// The phases of a turn, from one that no scene is likely to have such a phase at, at which a force of several orders
+/// falls to 0. A part of the turn has none if the force isn't 0 on it, and one at most if it is monotone there.
+class Falls {
+ public:
+  explicit Falls(const Press<Ball>& press) : press_(press) { look(first, first + 1, 40); }
+
+  [[nodiscard]] const std::vector<Ball>& found() const { return phases_; }
+
+ private:
+  static constexpr double first = 0.1371;  ///< turns
+
+  [[nodiscard]] static Ball phase(double turns) { return Ball(turns) * Ball(2) * Ball::pi(); }
+  void look(double begin, double end, int halvings) {
+    const Ball all = Ball::hull(phase(begin), phase(end));
+    const auto [height, slope] = press_.at(all);
+    if (height.is_positive() || height.is_negative()) return;
+    if (slope.is_positive() || slope.is_negative()) {
+      const Ball before = press_.at(phase(begin)).first, after = press_.at(phase(end)).first;
+      const bool is_known = !before.overlaps(Ball(0)) && !after.overlaps(Ball(0));
+      if (is_known && before.is_positive() && after.is_negative()) phases_.push_back(root(begin, end, slope));
+      if (is_known) return;
+    }
+    if (halvings == 0) throw Undecided(unknown_release);
+    look(begin, (begin + end) / 2, halvings - 1), look((begin + end) / 2, end, halvings - 1);
+  }
+  /// By the mean value theorem from a place that is nearly the root.
+  [[nodiscard]] Ball root(double begin, double end, const Ball& slope) const {
+    double low = begin, high = end;
+    for (int i = 0; i < 50; ++i) {
+      const double middle = (low + high) / 2;
+      (press_.at(phase(middle)).first.near() > 0 ? low : high) = middle;
+    }
+    Ball theta = phase((low + high) / 2);
+    for (slong known = 32; known < 2 * bits; known *= 2) {
+      const auto [height, steepness] = press_.at(theta);
+      theta = (theta - height / steepness).middle();
+    }
+    if (!(phase(begin) < theta && theta < phase(end))) throw Undecided(unknown_release);
+    return theta - press_.at(theta).first / slope;
+  }
+
+  const Press<Ball>& press_;
+  std::vector<Ball> phases_;
+};
+
+Ball fall_of(const Press<Ball>& press) {
+  const std::vector<Ball> falls = Falls(press).found();
+  if (falls.empty()) throw Undecided(unknown_release);
+  if (falls.size() > 1) throw Undecided("which of several phases of a period releases the mass");
+  return falls[0];
+}
+/// With its derivative by the parameter.
+Dual fall_of(const Press<Dual>& press) {
+  const Press<Ball> values{values_of(press.force), press.sign.value, press.constant.value};
+  const Ball theta = fall_of(values);
+  return {theta, -press.at(Dual(theta)).first.slope / values.at(theta).second};
+}
+
+/// The phase at which the force that presses the mass falls to 0: of a sine sin(theta) is what balances it, and
+/// decreases for the force that presses.
 template <class Number>
 Number phase_of_release(const BasicScene<Number>& scene, Side side) {
-  const Number level = Number(-sign_of(side)) * scene.friction_static;  // friction holds it against a pull away
-  const Number u = (scene.k * scene.stop(side).position - scene.load + level) / scene.f;
-  if (!(abs(u) < Number(1))) throw Undecided("whether the force ever releases the mass");
-  const bool falls = (scene.f * Number(sign_of(side))).is_positive();
+  const Press<Number> press = press_of(scene, side);
+  if (!scene.force.is_sine()) return fall_of(press);
+  const Number& f = scene.force.orders[0].in_phase;
+  const Number u = -press.sign * press.constant / f;
+  if (!(abs(u) < Number(1))) throw Undecided(unknown_release);
+  const bool falls = (f * press.sign).is_positive();
   return falls ? Number(Ball::pi()) - asin(u) : asin(u);
+}
+/// Whether no phase of the force lets a mass go that a stop holds at one.
+bool holds_for_ever(const Scene& scene, Side side) {
+  const Press<Ball> press = press_of(scene, side);
+  if ((press.constant - scene.force.most()).is_positive()) return true;
+  return !scene.force.is_zero() && !scene.force.is_sine() && Falls(press).found().empty();
 }
 template <class Number>
 Number time_of_phase(const BasicScene<Number>& scene, const Number& theta, slong turns) {
@@ -55,7 +142,7 @@ void Motion::collapse_on(Side side) {
 void Motion::rebound(Side side, const Ball& time) {
   heading_ = scene_.is_rough() ? -sign_of(side) : 0, still_for_ = 0;
   if (!main_.is_none()) return begin(Mode::free, side, 1);
-  const Ball press = acting().pressing(side, sin_cos(scene_.nu * time + scene_.phase).first) + scene_.friction_static;
+  const Ball press = press_of(side, time) + scene_.friction_static;
   if (press.is_negative()) {
     if (scene_.is_rough()) still_for_ = 1;
     return begin(Mode::free, side, 2);
@@ -64,9 +151,7 @@ void Motion::rebound(Side side, const Ball& time) {
   resting_ = true, side_ = side, rest_begin_ = time;
 }
 
-Ball Motion::press_of(Side side, const Ball& time) const {
-  return acting().pressing(side, sin_cos(scene_.nu * time + scene_.phase).first);
-}
+Ball Motion::press_of(Side side, const Ball& time) const { return acting().pressing(side, time); }
 
 /// y'' towards a stop in a chatter that stays within a height of it and is no faster than that. It must be more than
 /// friction holds, so that each flight returns, and vary so little that none returns at more than twice the first
@@ -128,7 +213,7 @@ Motion::Rebounds Motion::slowing_rebounds(Side side, const Ball& time, const Bal
   const auto [least, most] = pull_in(side, time + Ball::hull(Ball(0), longest), height, fastest);
   if (!(square(w) / (Ball(2) * least) <= height)) throw Undecided("whether a chatter ends");
   require_far_off(side, height);
-  const Ball rate = abs(scene_.f * scene_.nu) + abs(scene_.k) * fastest + Ball(2) * scene_.h * most;
+  const Ball rate = scene_.force.steepest() * scene_.nu + abs(scene_.k) * fastest + Ball(2) * scene_.h * most;
   const Ball speeds = law.sum_of_rebounds(w, rate / square(least));
   const Rebounds left{Ball::hull(Ball(2) * speeds.lower() / most, Ball(2) * speeds.upper() / least), height};
   if (!(left.time.upper() <= longest)) throw Undecided("whether a chatter ends");
@@ -189,9 +274,7 @@ Event Motion::finish_rest_on_stop(const Ball& end) {
   const Side side = side_;
   const Stop& stop = scene_.stop(side);
   other_places_.push_back(stop.position);
-  const Ball least =
-      Ball(sign_of(side)) * (acting().load - scene_.k * stop.position) + scene_.friction_static - abs(scene_.f);
-  const bool for_ever = least.is_positive();
+  const bool for_ever = holds_for_ever(acting(), side);
   const Dual release = for_ever ? Dual(end) : time_of_release(side, rest_begin_, false);
   const bool lets_go = !for_ever && (release.value <= end || release.value.overlaps(end));
   if (strikes_before(lets_go ? release.value : end)) {

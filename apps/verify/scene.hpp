@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "force.hpp"
 #include "law.hpp"
 
 namespace verify {
@@ -56,10 +57,12 @@ struct BasicLooseMass {
   [[nodiscard]] Number share() const { return mass / (Number(1) + mass); }
 };
 
-/// x'' + 2h x' + k x + friction sgn x' = f sin(nu tau + phase) + load between two stops.
+/// x'' + 2h x' + k x + friction sgn x' = force(nu tau + phase) + load between two stops.
 template <class Number>
 struct BasicScene {
-  Number h, k, f, nu, load, phase;
+  Number h, k;
+  BasicForce<Number> force;
+  Number nu, load, phase;
   std::array<std::optional<BasicStop<Number>>, 2> stops;  ///< [side]
   Number friction{0}, friction_static{0};                 ///< of a mass that moves, and the most that holds a still one
   bool is_let_go_gently = true;                           ///< both are the same, exactly: so x'' grows from 0
@@ -70,9 +73,10 @@ struct BasicScene {
   /// Whether the walls of a loose mass are told from stops.
   [[nodiscard]] bool tells_walls() const { return loose && (stops[0] || stops[1] || is_rough()); }
   [[nodiscard]] Number period() const { return Number(2) * Number(Ball::pi()) / nu; }
-  /// The force that presses a mass at rest into a stop (eq. 22), at a phase whose sine is given; friction apart.
-  [[nodiscard]] Number pressing(Side side, const Number& sine) const {
-    return Number(sign_of(side)) * (f * sine + load - k * stop(side).position);
+  [[nodiscard]] Number force_at(const Number& time) const { return force.at(nu * time + phase).first; }
+  /// The force that presses a mass at rest into a stop (eq. 22); friction apart.
+  [[nodiscard]] Number pressing(Side side, const Number& time) const {
+    return Number(sign_of(side)) * (force_at(time) + load - k * stop(side).position);
   }
 };
 
@@ -81,6 +85,7 @@ struct BasicScene {
 template <class Number>
 [[nodiscard]] std::optional<Number> mirror_centre(const BasicScene<Number>& scene) {
   const auto& [lower, upper] = scene.stops;
+  if (!scene.force.is_odd()) return std::nullopt;
   if (const auto& loose = scene.loose)  // its housing has the mirror image that it is about its own middle
     if (!loose->load.is_zero() || !loose->walls[0] || !loose->walls[1] || !(loose->R[0] - loose->R[1]).is_zero() ||
         !are_alike(loose->laws[0], loose->laws[1]))

@@ -1,5 +1,6 @@
 #include "scene_fields.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -106,6 +107,21 @@ Certificate::LooseNumbers loose_of(const Field& field) {
   return loose;
 }
 
+/// Further orders of the force, each once.
+std::vector<Certificate::OrderNumbers> orders_of(const Field& field) {
+  std::vector<Certificate::OrderNumbers> orders;
+  for (const Field& item : field.items()) {
+    const int number = static_cast<int>(item.get("order").count(1, most_order));
+    const auto sine = item.find("sin"), cosine = item.find("cos");
+    if (sine && number == 1) sine->refuse("of order 1 is f", "give f, and leave it out");
+    if (!sine && !cosine) item.refuse("has neither sin nor cos", "give one of them, or both");
+    if (std::ranges::find(orders, number, &Certificate::OrderNumbers::order) != orders.end())
+      item.refuse("is of an order that was given", "give each order once");
+    orders.push_back({number, sine ? sine->number() : Number(), cosine ? cosine->number() : Number()});
+  }
+  return orders;
+}
+
 }  // namespace
 
 Certificate::SceneNumbers scene_of(const Field& field) {
@@ -114,6 +130,7 @@ Certificate::SceneNumbers scene_of(const Field& field) {
       field.get("nu").number_from(0, Field::infinity, false), field.get("load").number(), field.get("phase").number(),
       {stop_of(field, "lower"), stop_of(field, "upper")}};
   read_friction(field, scene);
+  if (const auto orders = field.find("orders")) scene.orders = orders_of(*orders);
   if (scene.stops[0] && scene.stops[1] && !(scene.stops[0]->position < scene.stops[1]->position))
     field.refuse("has its lower stop above the upper one", "exchange them");
   if (const auto loose = field.find("loose")) scene.loose = loose_of(*loose);

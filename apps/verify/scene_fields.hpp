@@ -5,6 +5,8 @@
 
 namespace verify {
 
+constexpr long most_order = 100;  ///< of a force
+
 /// Reads the scene of a certificate. Throws FormatError.
 [[nodiscard]] Certificate::SceneNumbers scene_of(const Field& field);
 

@@ -105,7 +105,10 @@ void require_limits(const MovingScene& scene, Report& report) {
   };
   require_above("h", scene.h, Dual(0), true);
   require_above("nu", scene.nu, Dual(0), false);
-  require_above("the amount of f", scene.f.value.is_negative() ? -scene.f : scene.f, Dual(0), false);
+  if (scene.force.is_sine())
+    require_above("the amount of f", abs(scene.force.orders[0].in_phase), Dual(0), false);
+  else
+    require_above("the square of the force", scene.force.squares(), Dual(0), false);
   for (const auto& stop : scene.stops) {
     if (!stop) continue;
     require_above("R", stop->R, Dual(0), true), require_above("1 - R", Dual(1) - stop->R, Dual(0), true);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -52,6 +53,7 @@ struct SceneSlopes {
   struct Stop {
     double position, R, stiffness, damping;
   } lower, upper;
+  std::array<ForceOrder<double>, ForceOrders<double>::most> orders{};  ///< of a force of several, with f the first sine
 };
 
 /// The claims of a special point of a branch.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace clatter::certificates {
 namespace {
@@ -66,10 +67,26 @@ Json json_of(const LooseMass& loose) {
   return json;
 }
 
+/// The sines and cosines of a force that has further orders than a sine, [order - 1].
+using Orders = std::array<ForceOrder<double>, ForceOrders<double>::most>;
+void add_orders(Json& json, const Orders& sizes) {
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    Json order{{"order", i + 1}};
+    if (i > 0 && sizes[i].in_phase != 0) order["sin"] = sizes[i].in_phase;
+    if (sizes[i].quadrature != 0) order["cos"] = sizes[i].quadrature;
+    if (order.size() > 1) json["orders"].push_back(order);
+  }
+}
+
 Json json_of(const Scene& scene) {
   const Oscillator& o = scene.oscillator;
   Json json{{"h", o.damping},    {"k", o.stiffness}, {"f", o.forcing},
             {"nu", o.frequency}, {"load", o.load},   {"phase", scene.start.phase}};
+  if (o.shape.has_orders()) {
+    Orders sizes = o.shape.orders.of;
+    for (auto& [sine, cosine] : sizes) sine *= o.forcing, cosine *= o.forcing;
+    json["f"] = sizes[0].in_phase, add_orders(json, sizes);
+  }
   add_friction(json, scene.friction.kinetic, scene.friction.static_level);
   if (has_loose_mass(scene.loose)) json["loose"] = json_of(scene.loose);
   if (std::isfinite(scene.stops.lower)) json["lower"] = json_of(scene.stops, Side::lower);
@@ -134,6 +151,11 @@ Json json_of(const GivenScene& machine) {
   else
     json["damping"] = machine.damper;
   json["force"] = force, json["frequency"] = frequency, json["load"] = load;
+  for (std::size_t i = 0; shape.has_orders() && i < machine.orders.size(); ++i) {
+    const auto& [amplitude, phase] = machine.orders[i];
+    const std::string order = std::to_string(i + 2);
+    if (amplitude != 0) json["force_" + order] = amplitude, json["phase_" + order] = phase;
+  }
   return json;
 }
 
@@ -143,7 +165,7 @@ Json json_of(const SceneSlopes& slopes) {
     if (slope != 0) to[name] = slope;
   };
   add(json, "h", slopes.h), add(json, "k", slopes.k), add(json, "f", slopes.f), add(json, "nu", slopes.nu);
-  add(json, "load", slopes.load), add(json, "phase", slopes.phase);
+  add(json, "load", slopes.load), add(json, "phase", slopes.phase), add_orders(json, slopes.orders);
   for (const Side side : {Side::lower, Side::upper}) {
     const SceneSlopes::Stop& of = side == Side::upper ? slopes.upper : slopes.lower;
     Json stop = Json::object();

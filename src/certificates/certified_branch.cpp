@@ -103,8 +103,15 @@ SceneSlopes slopes_along(const FollowedScene& scene, Parameter along) {
                              soft ? slope(upper ? p.stops.stiffness_upper : p.stops.stiffness_lower) : 0.0,
                              soft ? slope(upper ? p.stops.damping_upper : p.stops.damping_lower) : 0.0};
   };
-  return {slope(o.damping), slope(o.stiffness), slope(force.amplitude), slope(o.frequency),
-          slope(o.load),    slope(force.lead),  of_stop(Side::lower),   of_stop(Side::upper)};
+  SceneSlopes slopes{slope(o.damping), slope(o.stiffness), slope(force.amplitude), slope(o.frequency),
+                     slope(o.load),    slope(force.lead),  of_stop(Side::lower),   of_stop(Side::upper)};
+  if (!o.shape.has_orders()) return slopes;
+  for (std::size_t i = 0; i < slopes.orders.size(); ++i) {
+    const auto& [in_phase, quadrature] = o.shape.orders.of[i];
+    slopes.orders[i] = {slope(force.amplitude * in_phase), slope(force.amplitude * quadrature)};
+  }
+  slopes.f = slopes.orders[0].in_phase;
+  return slopes;
 }
 
 /// The name under which a special point is claimed; nothing: the format has none.

@@ -11,6 +11,7 @@
 #include "certificates/recorded_motion.hpp"
 #include "motion/known_soft_stops.hpp"
 #include "point/point.hpp"
+#include "scene/phased_force.hpp"
 
 namespace clatter::certificates {
 
@@ -89,10 +90,12 @@ class Bounds {
     const double q = ends ? motion::known_soft_stop(stops_, event.side).relaxation() : 0.0;
     return claimed_contact(event, x_error + q * v_error, event.velocity() + q * a, v_error, a);
   }
+  [[nodiscard]] PhasedForce<double> force_at(double time) const {
+    return clatter::force_at(oscillator_.forcing, oscillator_.shape, oscillator_.frequency * time + phase_);
+  }
   /// The acceleration of the main mass at an instant, at which no soft stop pushes.
   [[nodiscard]] double acceleration_at(double time, double x, double v) const {
-    return oscillator_.forcing * std::sin(oscillator_.frequency * time + phase_) + constant_force(oscillator_, x) -
-           2 * oscillator_.damping * v -
+    return force_at(time).value + constant_force(oscillator_, x) - 2 * oscillator_.damping * v -
            (v > 0   ? friction_.kinetic
             : v < 0 ? -friction_.kinetic
                     : 0.0);
@@ -139,15 +142,13 @@ class Bounds {
     const double force = std::abs(push_at(event.end(), x)) - friction_.static_level;
     const double largest = std::abs(oscillator_.forcing) + std::abs(oscillator_.load) +
                            std::abs(oscillator_.stiffness * x) + friction_.static_level;
-    const double rate =
-        std::abs(oscillator_.forcing * oscillator_.frequency * std::cos(oscillator_.frequency * event.end() + phase_));
+    const double rate = std::abs(oscillator_.frequency * force_at(event.end()).slope);
     if (!(std::abs(force) <= of_chatter * largest)) return time_error(event.end());
     return time_error(event.end()) + (of_state * largest + stiffness_at(x) * x_error) / rate;
   }
   /// The force on a mass at x' = 0, and the stiffness that acts on it, those of a soft stop included.
   [[nodiscard]] double push_at(double time, double x) const {
-    double push =
-        oscillator_.forcing * std::sin(oscillator_.frequency * time + phase_) + constant_force(oscillator_, x);
+    double push = force_at(time).value + constant_force(oscillator_, x);
     if (const Side within = soft_stop_beyond(stops_, x); within != Side::none) {
       const auto stop = motion::known_soft_stop(stops_, within);
       push -= stop.stiffness * (x - stop.position);

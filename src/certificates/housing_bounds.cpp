@@ -131,10 +131,10 @@ double HousingBounds::release_error(const RecordedEvent<4>& event) const {
     const auto stop = motion::known_soft_stop(stops_, within.side);
     h += stop.damping, k += stop.stiffness, forces += std::abs(stop.stiffness * stop.position);
   }
-  const double f = oscillator_.forcing, nu = oscillator_.frequency, both = 1 + loose_.ratio;
+  const double nu = oscillator_.frequency, both = 1 + loose_.ratio;
   const double a = acceleration(event, event.end(), true);
-  const double jerk = std::abs(f * nu * std::cos(nu * event.end() + phase_) - 2 * h * a - k * v) / both;
-  forces += std::abs(f) + 2 * h * std::abs(v) + std::abs(k * place) + loose_.friction_static;
+  const double jerk = std::abs(nu * force_at(event.end()).slope - 2 * h * a - k * v) / both;
+  forces += std::abs(oscillator_.forcing) + 2 * h * std::abs(v) + std::abs(k * place) + loose_.friction_static;
   const double of_force =
       2 * h * error[1] + std::abs(k) * error[0] + of_arithmetic * (forces / both + std::abs(loose_.load));
   return time_error(event.end()) + of_force / jerk;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -8,6 +7,7 @@
 #include "math/dual.hpp"
 #include "motion/soft_stop.hpp"
 #include "scene/parameter.hpp"
+#include "scene/phased_force.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::branches {
@@ -42,12 +42,6 @@ struct StartProblem : FollowedScene, point::RunSettings {
 [[nodiscard]] inline double value_of(const FollowedScene& scene, Parameter parameter) {
   return value_of(scene.given, parameter);
 }
-
-/// A force at a phase, and its derivative by that.
-template <class Number>
-struct PhasedForce {
-  Number value, slope;
-};
 
 /// The numbers of a computed scene, of a type that may carry derivatives.
 /// They have each impact rebound: one that is too slow for that ends a branch.
@@ -91,12 +85,8 @@ struct SceneNumbers : BasicScene<Number> {
   }
   /// That force at a phase, rad, and its derivative by the phase.
   [[nodiscard]] PhasedForce<Number> force_at(const Number& phase) const {
-    using std::cos, std::sin;
     const auto [f, lead] = force();
-    const Number sine = sin(phase + lead), cosine = cos(phase + lead);
-    if (!this->oscillator.shape.has_orders()) return {f * sine, f * cosine};
-    const auto s = this->oscillator.shape.orders.derivatives({sine, cosine});
-    return {f * s[0], f * s[1]};
+    return clatter::force_at(f, this->oscillator.shape, Number(phase + lead));
   }
 };
 
