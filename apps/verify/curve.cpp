@@ -90,9 +90,9 @@ Curve::Passage Curve::pass(const Place& at) const {
   start.x = at.x, start.v = at.v;
   Motion motion(keep->scene, keep->family, start);
   Course course(kept_, motion, motion.start_time() + length.value);
-  const slong first = motion.turns_of_release();
+  const auto first = motion.release();
   course.run();
-  if (certificate_.released) require_same_release(certificate_, course, motion.turns_of_release() - first);
+  if (certificate_.released) require_same_release(certificate_, course, first, motion.release());
   Passage passage{course.events(), motion.stretches(), Ball(0), Ball(0), of_main(motion.derivative()), {}, {}, keep};
   if (certificate_.released) return passage;
   Vector end = of_main(motion.centre()), by_parameter = of_main(motion.by_parameter());

@@ -1,6 +1,7 @@
 #include "cycle.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "deadline.hpp"
@@ -80,22 +81,23 @@ bool Cycle::differs_from_mirror() const {
 }
 
 long Cycle::releases() const {
-  const auto of = [&](Side side) {
-    return std::ranges::count_if(events_,
-                                 [&](const Event& event) { return event.kind == Kind::rest && event.side == side; });
-  };
-  return std::max(of(Side::lower), of(Side::upper));
+  std::map<std::pair<Side, std::size_t>, long> times;
+  long most = 0;
+  for (const Event& event : events_)
+    if (event.kind == Kind::rest) most = std::max(most, ++times[{event.side, event.release}]);
+  return most;
 }
 
 /// A stop lets the mass go at one phase of the force and the other, in a scene that is its own mirror image, half a
-/// forcing period later: times that overlap are the same.
+/// forcing period later: times that are nearer than phases of release ever are to each other are the same.
 bool Cycle::releases_mirrored() const {
-  const Ball half = period_ / Ball(2);
+  constexpr int most_periods = 1'000'000;
+  const Ball half = period_ / Ball(2), same = Ball(releases_apart) * period_ / Ball(most_periods);
   for (const Event& one : events_) {
     require_time();
     for (const Event& other : events_)
       if (one.kind == Kind::rest && other.kind == Kind::rest && one.side != other.side &&
-          other.until.overlaps(one.until + half))
+          abs(other.until - one.until - half) < same)
         return true;
   }
   return false;

@@ -19,7 +19,7 @@ class Cycle {
   [[nodiscard]] bool differs_after(std::size_t parts) const;
   /// Whether they show that half a period later it isn't its own mirror image.
   [[nodiscard]] bool differs_from_mirror() const;
-  /// How often the stop that does so most lets the mass go.
+  /// How often a stop lets the mass go at one of its phases, at most.
   [[nodiscard]] long releases() const;
   /// Whether one stop lets the mass go half a period after the other.
   [[nodiscard]] bool releases_mirrored() const;

@@ -38,9 +38,13 @@ struct Event {
   Ball until;    ///< of a chatter, a rest, a stick, a press or a hold
   Ball gap{};    ///< of a graze: the least that is left to the stop, or of its force; below 0 the motion passes through
   Slopes slopes{};
-  Ball x{};              ///< of a reversal or a stick: the place; of a turn or a hold z
-  bool of_wall = false;  ///< of a loose mass
+  Ball x{};                 ///< of a reversal or a stick: the place; of a turn or a hold z
+  bool of_wall = false;     ///< of a loose mass
+  std::size_t release = 0;  ///< of a rest: which of the phases of a turn at which the stop may let go ends it
 };
+
+/// Turns by which these phases are apart at least.
+constexpr double releases_apart = 1e-6;
 
 /// Whether a stop holds the mass, or a wall the loose mass.
 [[nodiscard]] inline bool holds(Kind kind) { return kind == Kind::rest || kind == Kind::press; }

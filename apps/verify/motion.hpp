@@ -61,7 +61,12 @@ class Motion {
   [[nodiscard]] FourByFour derivative() const { return set_.derivative(); }  ///< of the state at the end by the start
   [[nodiscard]] Four by_parameter() const { return set_.by_parameter(); }
   [[nodiscard]] Ball start_time() const { return start_time_; }
-  [[nodiscard]] slong turns_of_release() const { return turns_; }  ///< of the last release; equal phases differ by it
+  /// The last release of a stop: of the phases of a turn at which it may let go, in their order, which one, and turns.
+  struct PhaseOfRelease {
+    slong turns = 0;
+    std::size_t number = 0;
+  };
+  [[nodiscard]] const PhaseOfRelease& release() const { return release_; }
 
   [[nodiscard]] const std::vector<Stretch>& stretches() const { return stretches_; }
   /// Places at which the mass was held, and displacements that hold those of the flights of chatters that aren't
@@ -209,7 +214,7 @@ class Motion {
   std::optional<std::size_t> hits_at_start_{};  ///< what the start moves into: a stop, 0, or a wall, 2
   std::optional<Event> due_{};                  ///< the event that ended a press
   Ball rest_begin_, press_begin_, start_time_;
-  slong turns_ = 0;
+  PhaseOfRelease release_{};
   std::vector<Stretch> stretches_{};
   std::vector<Ball> other_places_{};
   bool at_end_ = false;

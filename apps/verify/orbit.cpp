@@ -167,10 +167,10 @@ Orbit exact(Motion motion, const std::vector<Event>& events, const Certificate& 
 /// exact, so it repeats, and not before.
 Orbit resting_orbit(const Certificate& certificate, const Scene& scene) {
   Motion motion(scene, certificate.start_in_balls(), Four::zero());
-  const slong first = motion.turns_of_release();
+  const auto first = motion.release();
   Course course(certificate, motion, motion.start_time() + length_of(scene, certificate.periods));
   course.run();
-  require_same_release(certificate, course, motion.turns_of_release() - first);
+  require_same_release(certificate, course, first, motion.release());
   return exact(std::move(motion), course.events(), certificate);
 }
 
@@ -187,13 +187,16 @@ void require_possible(const Certificate& certificate, Motion& motion, const Ball
   if (report.finding().verdict == Verdict::refuted) throw Refuted(report.first_refuted());
 }
 
-void require_same_release(const Certificate& certificate, const Course& course, slong periods) {
-  if (!course.ends_with_release() || course.events().back().side != *certificate.released)
+void require_same_release(const Certificate& certificate, const Course& course, const Motion::PhaseOfRelease& first,
+                          const Motion::PhaseOfRelease& last) {
+  if (!course.ends_with_release() || course.events().back().side != *certificate.released ||
+      last.number != first.number)
     throw Refuted("the motion doesn't end with the release that it starts with");
-  if (periods != certificate.periods)
+  if (const slong periods = last.turns - first.turns; periods != certificate.periods)
     throw Refuted("periods: claimed " + std::to_string(certificate.periods) + ", found " + std::to_string(periods));
   for (std::size_t i = 0; i + 1 < course.events().size(); ++i)
-    if (course.events()[i].kind == Kind::rest && course.events()[i].side == *certificate.released)
+    if (course.events()[i].kind == Kind::rest && course.events()[i].side == *certificate.released &&
+        course.events()[i].release == first.number)
       throw Refuted("periods: the stop releases the mass before them, too");
 }
 

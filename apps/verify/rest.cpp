@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "motion.hpp"
 
 namespace verify {
@@ -28,7 +30,13 @@ Press<Number> press_of(const BasicScene<Number>& scene, Side side) {
 /// falls to 0. A part of the turn has none if the force isn't 0 on it, and one at most if it is monotone there.
 class Falls {
  public:
-  explicit Falls(const Press<Ball>& press) : press_(press) { look(first, first + 1, 40); }
+  explicit Falls(const Press<Ball>& press) : press_(press) {
+    look(first, first + 1, 40);
+    for (std::size_t i = 0; i < phases_.size(); ++i) {
+      const Ball next = i + 1 < phases_.size() ? phases_[i + 1] : phases_[0] + phase(1);
+      if (!(next - phases_[i] > phase(releases_apart))) throw Undecided(unknown_release);
+    }
+  }
 
   [[nodiscard]] const std::vector<Ball>& found() const { return phases_; }
 
@@ -69,30 +77,27 @@ class Falls {
   std::vector<Ball> phases_;
 };
 
-Ball fall_of(const Press<Ball>& press) {
-  const std::vector<Ball> falls = Falls(press).found();
-  if (falls.empty()) throw Undecided(unknown_release);
-  if (falls.size() > 1) throw Undecided("which of several phases of a period releases the mass");
-  return falls[0];
-}
-/// With its derivative by the parameter.
-Dual fall_of(const Press<Dual>& press) {
+std::vector<Ball> falls_of(const Press<Ball>& press) { return Falls(press).found(); }
+/// With their derivatives by the parameter.
+std::vector<Dual> falls_of(const Press<Dual>& press) {
   const Press<Ball> values{values_of(press.force), press.sign.value, press.constant.value};
-  const Ball theta = fall_of(values);
-  return {theta, -press.at(Dual(theta)).first.slope / values.at(theta).second};
+  std::vector<Dual> falls;
+  for (const Ball& theta : falls_of(values))
+    falls.emplace_back(theta, -press.at(Dual(theta)).first.slope / values.at(theta).second);
+  return falls;
 }
 
-/// The phase at which the force that presses the mass falls to 0: of a sine sin(theta) is what balances it, and
-/// decreases for the force that presses.
+/// The phases of a turn at which the force that presses the mass falls to 0, in their order: of a sine one, at which
+/// sin(theta) is what balances it, and decreases for the force that presses.
 template <class Number>
-Number phase_of_release(const BasicScene<Number>& scene, Side side) {
+std::vector<Number> phases_of_release(const BasicScene<Number>& scene, Side side) {
   const Press<Number> press = press_of(scene, side);
-  if (!scene.force.is_sine()) return fall_of(press);
+  if (!scene.force.is_sine()) return falls_of(press);
   const Number& f = scene.force.orders[0].in_phase;
   const Number u = -press.sign * press.constant / f;
   if (!(abs(u) < Number(1))) throw Undecided(unknown_release);
   const bool falls = (f * press.sign).is_positive();
-  return falls ? Number(Ball::pi()) - asin(u) : asin(u);
+  return {falls ? Number(Ball::pi()) - asin(u) : asin(u)};
 }
 /// Whether no phase of the force lets a mass go that a stop holds at one.
 bool holds_for_ever(const Scene& scene, Side side) {
@@ -110,11 +115,24 @@ Number time_of_phase(const BasicScene<Number>& scene, const Number& theta, slong
 /// The instant at which the force that presses the mass into a stop falls to 0: the first one after a time, or the
 /// nearest one.
 Dual Motion::time_of_release(Side side, const Ball& after, bool nearest) {
-  const Ball theta = phase_of_release(acting(), side);
-  const Ball turns = (scene_.nu * after + scene_.phase - theta) / (Ball(2) * Ball::pi());
-  turns_ = nearest ? (turns + Ball(0.5)).floor() : turns.floor() + 1;
-  if (family_ == nullptr) return time_of_phase(scene_, theta, turns_);
-  return time_of_phase(family_->scene, phase_of_release(family_->scene, side), turns_);
+  const Ball turn = Ball(2) * Ball::pi(), here = scene_.nu * after + scene_.phase;
+  const std::vector<Ball> phases = phases_of_release(acting(), side);
+  std::vector<Ball> distances;
+  std::vector<PhaseOfRelease> releases;
+  for (const Ball& theta : phases) {
+    const Ball turns = (here - theta) / turn;
+    releases.push_back({nearest ? (turns + Ball(0.5)).floor() : turns.floor() + 1, releases.size()});
+    distances.push_back(abs(theta + Ball(releases.back().turns) * turn - here));
+  }
+  const auto first = std::ranges::min_element(distances, {}, &Ball::near);
+  if (first == distances.end()) throw Undecided(unknown_release);
+  for (const Ball& other : distances)
+    if (&other != &*first && !(*first < other)) throw Undecided("which of two phases releases the mass");
+  release_ = releases[static_cast<std::size_t>(first - distances.begin())];
+  if (family_ == nullptr) return time_of_phase(scene_, phases[release_.number], release_.turns);
+  const std::vector<Dual> moving = phases_of_release(family_->scene, side);
+  if (moving.size() != phases.size()) throw Undecided(unknown_release);
+  return time_of_phase(family_->scene, moving[release_.number], release_.turns);
 }
 
 void Motion::let_main_go(Side side) {
@@ -276,6 +294,7 @@ Event Motion::finish_rest_on_stop(const Ball& end) {
   other_places_.push_back(stop.position);
   const bool for_ever = holds_for_ever(acting(), side);
   const Dual release = for_ever ? Dual(end) : time_of_release(side, rest_begin_, false);
+  event.release = for_ever ? 0 : release_.number;
   const bool lets_go = !for_ever && (release.value <= end || release.value.overlaps(end));
   if (strikes_before(lets_go ? release.value : end)) {
     event.until = due_->time;

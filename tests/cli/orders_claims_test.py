@@ -1,0 +1,100 @@
+"""Motion under a force of several orders is proved, and nothing false of it.
+
+Environment: CLATTER and CLATTER_VERIFY, the programs.
+"""
+
+import copy
+import json
+import random
+import unittest
+
+from branch_orders_test import BOUNCING, RESTING, under_orders
+from certified_runs import VERIFY, certificates_in, random_certificates, verdicts, verified
+from command_line import CommandLine
+from loose_mass_test import text_of
+from random_scenes import carrying_scenes, followed_scenes
+
+TURN = "6.283185307179586476925286766559005768394338798"
+ERROR = 1e-15
+
+
+def forced(orders, k, end):
+    """From rest at x = 0 over a period under a force of some orders."""
+    scene = {"h": 0, "k": k, "f": 0, "nu": 1, "load": 0, "phase": 0, "orders": orders}
+    start = {"time": 0, "x": 0, "v": 0}
+    whole = {"format": "clatter-certificate-1", "scene": scene, "claim": "transient", "start": start, "events": []}
+    return whole | {"end": {"time": TURN, "x": [end[0], ERROR], "v": [end[1], ERROR]}}
+
+
+@unittest.skipUnless(VERIFY, "without Arb there is no clatter-verify")
+class OrdersClaims(CommandLine):
+    def verdicts_of(self, certificates):
+        self.write("told.jsonl", "".join(json.dumps(one) + "\n" for one in certificates))
+        return verdicts(self.directory / "told.jsonl")
+
+    def branch(self, scene, limits, **keys):
+        """Certificates of the points and the special points of branches, and what is left out of them."""
+        lines = "".join(f"{key} = {value!r}\n" for key, value in {"along": "nu", "range": list(limits), **keys}.items())
+        observed = {"extrema": True, "stability": True, "impacts": True}
+        self.write("b.toml", text_of(scene, {}, observed) + "[branch]\n" + lines.replace("'", '"'))
+        self.clatter("branch", "b.toml", "-o", "b.h5", "-q", "--force")
+        self.clatter("certify", "b.h5", "-o", "b.jsonl", "--force")
+        return certificates_in(self.directory / "b.jsonl")
+
+    def test_motion_without_stops_is_that_of_the_closed_form(self):
+        """Without a spring A sin(j tau) moves a mass by A/j (tau - sin(j tau)/j); at the resonance k = j^2 it has
+        -A tau cos(j tau)/(2j), and B cos(j tau) has B tau sin(j tau)/(2j)."""
+        with self.subTest("resonance"):
+            at = forced(
+                [{"order": 3, "sin": 0.6, "cos": 0.4}], 9, ("-0.62831853071795864769", "1.25663706143591729539")
+            )
+            self.assertEqual(self.verdicts_of([at]), ["proved"])
+        drift = [{"order": 2, "sin": 1.5, "cos": 0.3}, {"order": 4, "sin": 0.5}, {"order": 1, "cos": 0.7}]
+        told = forced(drift, 0, ("5.49778714378213816731", "0"))  # 2 pi (1.5/2 + 0.5/4)
+        false = copy.deepcopy(told)
+        false["end"]["x"][0] = "5.497787143782138"
+        false["end"]["x"][1] = 1e-17
+        self.assertEqual(self.verdicts_of([told, false]), ["proved", "refuted"])
+
+    def test_random_runs_are_proved_and_none_under_another_force(self):
+        scenes = under_orders(followed_scenes(14, 21), 21) + under_orders(carrying_scenes(4, 22), 22)
+        draw = random.Random(23)
+        for file in random_certificates(self.directory, scenes):
+            told = verified(file)
+            self.assertEqual(told["refuted"], 0)
+            self.assertGreaterEqual(told["proved"], 9 * told["undecided"])
+            certificates = [one for one in certificates_in(file) if one["scene"].get("orders")]
+            self.assertGreater(len(certificates), 6)
+            for one in certificates:
+                order = draw.choice(one["scene"]["orders"])
+                number = draw.choice([name for name in ("sin", "cos") if name in order])
+                order[number] += draw.choice([-1, 1]) * 1e-4
+            self.assertNotIn("proved", self.verdicts_of(certificates))
+
+    def test_branches_and_their_special_points_are_proved(self):
+        certificates = self.branch(BOUNCING, (0.7, 1.1))
+        special = [one["kind"] for one in certificates if one["claim"] == "special"]
+        self.assertEqual(special, ["graze", "fold"])
+        self.assertEqual(set(self.verdicts_of(certificates[:: max(1, len(certificates) // 30)])), {"proved"})
+        along = self.branch({**BOUNCING, "nu": 0.86}, (0.1, 0.6), along="f_2")
+        special = [one for one in along if one["claim"] == "special"]
+        self.assertGreater(len(special), 0)
+        self.assertEqual(set(self.verdicts_of(special)), {"proved"})
+        for one in special:
+            self.assertEqual([order["order"] for order in one["slopes"]["orders"]], [2])
+            one["scene"]["orders"][0]["sin"] += 1e-6
+        self.assertNotIn("proved", self.verdicts_of(special))
+
+    def test_rests_end_where_one_phase_of_a_period_lets_go(self):
+        certificates = self.branch(RESTING, (0.45, 0.55), period=1)[::20]
+        self.assertTrue(all("released" in one["start"] for one in certificates))
+        self.assertEqual(set(self.verdicts_of(certificates)), {"proved"})
+        for one in certificates:
+            one["scene"]["orders"][0]["sin"] *= 1 + 1e-6
+        self.assertEqual(set(self.verdicts_of(certificates)), {"refuted"})
+        twice = self.branch({**RESTING, "f_2": 1.6, "phase_2": 2.2}, (0.45, 0.55), period=1)[::40]
+        self.assertEqual(set(self.verdicts_of(twice)), {"undecided"})
+
+
+if __name__ == "__main__":
+    unittest.main()
