@@ -80,13 +80,12 @@ void check_force_shape(const Settings& settings) {
   if (key == "force_shape")
     shape += " = " + in_quotes(std::get<std::string>(settings.find(settings.scene_section, key)->value));
   if (waveform != Waveform::orders || has_force_table(settings)) check_orders(settings, shape);
+  if (waveform == Waveform::orders) return;
   for (const Parameter shaking : std::array<Parameter, 2>{"stop_amplitude", "base_amplitude"})
     if (const SourceLocation* const place = place_of_nonzero(settings.given(shaking)))
-      fail(*place,
-           in_quotes(shaking.key()) + " beside " + shape +
-               "; what is shaken moves as a sine, so far beside a force that is one, too: leave out one of them");
-  const Setting* const along = settings.find("branch", "along");
-  if (along != nullptr && waveform != Waveform::orders)
+      fail(*place, in_quotes(shaking.key()) + " beside " + shape +
+                       "; what is shaken moves as a sine, so far beside a force of sines: leave out one of them");
+  if (const Setting* const along = settings.find("branch", "along"))
     fail(along->location, "[branch] beside " + shape +
                               "; a branch follows motion under a sine, or several orders of one, so far: leave out " +
                               std::string(key) + ", or follow the motion by sweep.follow");

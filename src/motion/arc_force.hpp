@@ -44,7 +44,6 @@ DerivativeBounds<Number, count> ArcConstants<Number, E>::bounds() const {
 /// The responses to orders of the force (eq. 6), of which one at most is near resonance.
 template <class Number, Effects E>
 void ArcConstants<Number, E>::respond_to_orders() {
-  using std::abs;
   response = {}, response_speed = Number(0);
   for (std::size_t j = 1; j <= responses.size(); ++j) {
     const Number frequency = nu * static_cast<double>(j);

@@ -156,12 +156,35 @@ double displacement_bound_through_impacts(const Oscillator& oscillator, const Ph
   return bound >= 0 && oscillator.damping >= 0 ? bound : std::numeric_limits<double>::infinity();
 }
 
+namespace {
+
+/// By the responses to all orders of a force and the transient beside them.
+double bound_under_orders(const Oscillator& oscillator, const PhaseState& now) {
+  const auto& orders = oscillator.shape.orders;
+  double responses = 0;
+  PhasePoint transient{now.x, now.v};
+  orders.each({now.sine, now.cosine}, [&](int j, double value, double slope) {
+    const auto order = static_cast<std::size_t>(j);
+    if (orders.is_zero(order)) return;
+    const double nu = j * oscillator.frequency;
+    const auto unit = response_to(oscillator.stiffness - nu * nu, oscillator.damping, oscillator.forcing, nu);
+    responses += unit.amplitude * orders.size(order);
+    transient.x -= unit.displacement(value, slope), transient.v -= unit.velocity(nu, value, slope);
+  });
+  return (responses + transient_bound(oscillator, transient)) * (1 + 2 * rounding);
+}
+
+}  // namespace
+
 double displacement_bound(const Oscillator& oscillator, const PhaseState& now, double duration, double enough) {
   if (has_other_spring(oscillator))
     return displacement_bound(with_unit_spring(oscillator), with_unit_spring(oscillator, now),
                               duration * natural_frequency(oscillator), enough);
-  if (!oscillator.shape.is_sine())  // whose response has all harmonics
-    return displacement_bound_through_impacts(oscillator, now, duration);
+  if (!oscillator.shape.is_sine()) {
+    const double bound = displacement_bound_through_impacts(oscillator, now, duration);
+    const double other = oscillator.shape.has_orders() ? bound_under_orders(oscillator, now) : bound;
+    return other < bound ? other : bound;  // a NaN is no improvement
+  }
   const auto response = steady_response(oscillator);
   const PhasePoint transient = without(at_phase(response, oscillator.frequency, now.sine, now.cosine), now);
   double bound = std::numeric_limits<double>::infinity();
@@ -204,9 +227,15 @@ bool grows_at_resonance(const Scene& scene) {
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
   const double natural = natural_frequency(o);
-  return o.stiffness > 0 && o.damping == 0 && o.forcing != 0 && o.shape.is_sine() && std::isinf(stops.lower) &&
-         std::isinf(stops.upper) &&
-         std::abs(o.frequency - natural) <= 4 * std::numeric_limits<double>::epsilon() * natural;
+  const auto resonates = [&](std::size_t order) {
+    const double frequency = static_cast<double>(order) * o.frequency;
+    return std::abs(frequency - natural) <= 4 * std::numeric_limits<double>::epsilon() * natural;
+  };
+  bool grows = o.shape.is_sine() && resonates(1);
+  for (std::size_t j = 1; o.shape.has_orders() && j <= ForceOrders<double>::most; ++j)
+    grows = grows || (!o.shape.orders.is_zero(j) && resonates(j));
+  return grows && o.stiffness > 0 && o.damping == 0 && o.forcing != 0 && std::isinf(stops.lower) &&
+         std::isinf(stops.upper);
 }
 
 namespace {
@@ -218,7 +247,7 @@ bool grows_under_friction(const Scene& scene, double x, double v, const SineCosi
   const Oscillator& o = scene.oscillator;
   const auto [kinetic, static_level] = scene.friction;
   const double f = std::abs(o.forcing), most = pi<double>() / 4 * f * (1 - rounding), natural = natural_frequency(o);
-  if (!grows_at_resonance(scene) || !(kinetic < most)) return false;
+  if (!grows_at_resonance(scene) || !o.shape.is_sine() || !(kinetic < most)) return false;
   if (static_level < most) return true;
   const double swing = v * phase.sine - natural * (x - equilibrium_of(o)) * phase.cosine;
   return natural * std::copysign(1.0, o.forcing) * swing - 2 * kinetic > (f + static_level) * (1 + rounding);
@@ -240,9 +269,9 @@ bool is_pushed_away(const Scene& scene, double x, double v, const SineCosine<dou
 
 bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
   const Oscillator& o = scene.oscillator;
+  if (grows_at_resonance(scene) && !has_friction(scene.friction)) return true;
   if (has_friction(scene.friction) || !o.shape.is_sine()) return is_pushed_away(scene, x, v, phase);
   const Stops stops = innermost(scene.stops);
-  if (grows_at_resonance(scene)) return true;
   if (!(o.stiffness <= 0) || (std::isfinite(stops.lower) && std::isfinite(stops.upper))) return false;
   const PhasePoint free = transient_of(o, {x - equilibrium_of(o), v, phase.sine, phase.cosine});
   const double h = o.damping, size = steady_response(o).amplitude;

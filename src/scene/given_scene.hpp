@@ -201,8 +201,8 @@ template <class Number>
   const Number theta = scene.start.phase + scene.shaking.phase, &nu = scene.oscillator.frequency;
   scene.start.displacement += scene.shaking.base * sin(theta);
   scene.start.velocity += scene.shaking.base * nu * cos(theta);
-  const auto [amplitude, lead] = force_on_ground(scene.oscillator, scene.shaking);
-  scene.oscillator.forcing = amplitude, scene.shaking.lead = lead;
+  const auto [oscillator, lead] = with_force_on_ground(scene.oscillator, scene.shaking);
+  scene.oscillator = oscillator, scene.shaking.lead = lead;
   scene.start.phase += lead;
   return scene;
 }
@@ -216,8 +216,8 @@ template <class Number>
 [[nodiscard]] BasicScene<Number> in_shaken_frame(BasicScene<Number> scene) {
   if (!is_shaken(scene.shaking) && !move_by_themselves(scene.stops)) return scene;
   if (has_loose_mass(scene.loose)) return detail::on_the_ground(std::move(scene));
-  const auto [amplitude, lead] = force_in_frame(scene.oscillator, scene.shaking);
-  scene.oscillator.forcing = amplitude, scene.shaking.lead = lead;
+  const auto [oscillator, lead] = with_force_in_frame(scene.oscillator, scene.shaking);
+  scene.oscillator = oscillator, scene.shaking.lead = lead;
   scene.start.phase += lead;
   for (BasicStopMotion<Number>* const motion : {&scene.stops.motion_lower, &scene.stops.motion_upper})
     motion->phase += scene.shaking.phase - lead;

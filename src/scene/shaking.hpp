@@ -74,6 +74,63 @@ template <class Number>
                        Number(along * sin(phase) + across * cos(phase)));
 }
 
+/// An oscillator under a force that leads the one that was given.
+template <class Number>
+struct LeadingOscillator {
+  BasicOscillator<Number> oscillator;
+  Number lead;
+};
+
+namespace detail {
+
+/// An oscillator under a force of several orders and a part P sin(theta) + Q cos(theta), which leads theta by a phase.
+template <class Number>
+[[nodiscard]] LeadingOscillator<Number> with_part(BasicOscillator<Number> oscillator, const Number& P, const Number& Q,
+                                                  const Number& phase) {
+  using std::cos, std::sin;
+  auto& orders = oscillator.shape.orders.of;
+  for (ForceOrder<Number>& order : orders)
+    order = {order.in_phase * oscillator.forcing, order.quadrature * oscillator.forcing};
+  orders[0].in_phase += P * cos(phase) - Q * sin(phase);
+  orders[0].quadrature += P * sin(phase) + Q * cos(phase);
+  oscillator.forcing = oscillator.shape.orders.most_of(0);
+  if (oscillator.forcing == 0) return {oscillator, Number(0)};
+  for (ForceOrder<Number>& order : orders)
+    order = {order.in_phase / oscillator.forcing, order.quadrature / oscillator.forcing};
+  return {oscillator, Number(0)};
+}
+
+}  // namespace detail
+
+/// An oscillator under the force in the frame of what is shaken. One of several orders takes what shakes it as a part
+/// of its first order, and keeps its phase.
+template <class Number>
+[[nodiscard]] LeadingOscillator<Number> with_force_in_frame(BasicOscillator<Number> oscillator,
+                                                            const BasicShaking<Number>& shaking) {
+  const auto& [h, f, nu, load, k, shape, paces] = oscillator;
+  if (shape.has_orders() && !(is_always_zero(shaking.stops) && is_always_zero(shaking.base))) {
+    const Number P = shaking.base * nu * nu - shaking.stops * (k - nu * nu), Q = -2 * h * nu * shaking.stops;
+    return detail::with_part(oscillator, P, Q, shaking.phase);
+  }
+  const auto [amplitude, lead] = force_in_frame(oscillator, shaking);
+  oscillator.forcing = amplitude;
+  return {oscillator, lead};
+}
+
+/// The same in the frame of the ground.
+template <class Number>
+[[nodiscard]] LeadingOscillator<Number> with_force_on_ground(BasicOscillator<Number> oscillator,
+                                                             const BasicShaking<Number>& shaking) {
+  const auto& [h, f, nu, load, k, shape, paces] = oscillator;
+  if (shape.has_orders() && !is_always_zero(shaking.base)) {
+    const Number P = k * shaking.base, Q = 2 * h * nu * shaking.base;
+    return detail::with_part(oscillator, P, Q, shaking.phase);
+  }
+  const auto [amplitude, lead] = force_on_ground(oscillator, shaking);
+  oscillator.forcing = amplitude;
+  return {oscillator, lead};
+}
+
 /// The frame in which displacements and velocities are given: that of what is shaken, or that of the ground.
 enum class Frame : std::uint8_t { relative, absolute };
 

@@ -91,16 +91,14 @@ bool varies_stiffness(const FollowedScene& scene, Parameter parameter) {
 }
 
 Oscillator oscillator_in_frame(const Scene& scene) {
-  Oscillator oscillator = scene.oscillator;
-  oscillator.forcing = has_loose_mass(scene.loose) ? force_on_ground(oscillator, scene.shaking).amplitude
-                                                   : force_in_frame(oscillator, scene.shaking).amplitude;
-  return oscillator;
+  if (has_loose_mass(scene.loose)) return with_force_on_ground(scene.oscillator, scene.shaking).oscillator;
+  return with_force_in_frame(scene.oscillator, scene.shaking).oscillator;
 }
 
 std::optional<FrameMotion> frame_of_results(const Scene& scene) {
   if (!has_loose_mass(scene.loose) || !is_shaken(scene.shaking)) return std::nullopt;
   Shaking shaking = scene.shaking;
-  shaking.lead = force_on_ground(scene.oscillator, shaking).lead;
+  shaking.lead = with_force_on_ground(scene.oscillator, shaking).lead;
   return FrameMotion(shaking, oscillator_in_frame(scene), 0.0).reversed();
 }
 

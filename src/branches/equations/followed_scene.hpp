@@ -53,6 +53,11 @@ struct SceneNumbers : BasicScene<Number> {
   SceneNumbers(const BasicScene<Number>& scene, const Number& over_unit = Number(1))
       : BasicScene<Number>(scene), mass(over_unit) {
     for (Restitution<Number>* const law : laws_of<Number>(*this)) law->below = Number(0);
+    if (!this->oscillator.shape.has_orders()) return;
+    const bool is_on_ground = this->loose.ratio != 0;
+    this->oscillator = (is_on_ground ? with_force_on_ground(this->oscillator, this->shaking)
+                                     : with_force_in_frame(this->oscillator, this->shaking))
+                           .oscillator;
   }
 
   [[nodiscard]] const Number& position(Side stop) const {
@@ -78,8 +83,9 @@ struct SceneNumbers : BasicScene<Number> {
     const auto& [lower, upper] = std::pair(this->loose.lower, this->loose.upper);
     return is_finite(lower) && is_finite(upper) ? Number((lower + upper) / 2) : Number(0);
   }
-  /// In the frame of what is shaken, with a loose mass in that of the ground.
+  /// In the frame of what is shaken, with a loose mass in that of the ground; several orders are in it already.
   [[nodiscard]] LeadingForce<Number> force() const {
+    if (this->oscillator.shape.has_orders()) return {this->oscillator.forcing, Number(0)};
     if (this->loose.ratio != 0) return force_on_ground(this->oscillator, this->shaking);
     return force_in_frame(this->oscillator, this->shaking);
   }

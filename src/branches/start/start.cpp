@@ -252,9 +252,6 @@ void require_start_in_range(const FollowedScene& scene, Parameter parameter, con
   if (shaken.shaking.stops != 0 && shaken.shaking.base != 0)
     throw SettingError("stops and base can't be shaken at once; " + asked + " needs " +
                        (parameter == Parameter("stop_amplitude") ? "base_amplitude" : "stop_amplitude") + " = 0");
-  if (scene.oscillator.shape.has_orders() && is_shaken(shaken.shaking))
-    throw SettingError(asked +
-                       " shakes what moves as a sine, so far under a force that is one, too; leave out its orders");
 }
 
 double speed_scale(const FollowedScene& scene, const Orbit& orbit) {

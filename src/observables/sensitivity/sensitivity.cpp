@@ -34,13 +34,13 @@ class Walk {
         span_(span),
         extremes_(extremes),
         scene_(scene),
-        force_(force_in_frame(scene.oscillator, scene.shaking)),
+        driven_(with_force_in_frame(scene.oscillator, scene.shaking)),
         pieces_(span, scene),
-        frame_(span, scene, force_.lead),
+        frame_(span, scene, driven_.lead),
         mass_(mass),
-        still_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude,
-                                                  scene.oscillator.frequency, scene.oscillator.load,
-                                                  scene.oscillator.stiffness, scene.oscillator.shape)),
+        still_(motion::ArcConstants<Along, E>::of(driven_.oscillator.damping, driven_.oscillator.forcing,
+                                                  driven_.oscillator.frequency, driven_.oscillator.load,
+                                                  driven_.oscillator.stiffness, driven_.oscillator.shape)),
         slips_(still_, scene.friction, scene.stops) {}
 
   Sensitivity::ByKey run() {
@@ -66,7 +66,7 @@ class Walk {
   /// followed from a release on; any other begins at a section, with an unknown state. Motion that stands for ever
   /// stays at its place.
   std::size_t begin() {
-    state_.phase = force_.lead;
+    state_.phase = driven_.lead;
     if (pieces_.is_in_pieces() && !course_.empty()) state_.phase += pieces_.knot(course_.front());
     for (std::size_t i = 0; i < course_.size(); ++i)
       if (const Stretch& before = course_[(i + course_.size() - 1) % course_.size()];
@@ -158,7 +158,7 @@ class Walk {
   [[nodiscard]] Along lateness(std::size_t i, const Motion& end, const Along& phase) const {
     const Stretch& stretch = course_[i];
     if (!stretch.end) {
-      Along then = force_.lead;
+      Along then = driven_.lead;
       if (pieces_.is_in_pieces()) then += pieces_.knot(course_[(i + 1) % course_.size()]);
       return with_slope_of(0, (then - phase) / scene_.oscillator.frequency.value);
     }
@@ -229,7 +229,7 @@ class Walk {
   const ObservedSpan& span_;
   const Extremes& extremes_;
   const BasicScene<Along>& scene_;
-  LeadingForce<Along> force_;
+  LeadingOscillator<Along> driven_;  ///< in the frame in which the motion is computed
   DualForce<Along> pieces_;
   DualFrame<Along> frame_;
   Along mass_;                            ///< over that of the units

@@ -34,15 +34,15 @@ class HousingWalk {
         span_(span),
         extremes_(extremes),
         scene_(scene),
-        force_(force_on_ground(scene.oscillator, scene.shaking)),
+        driven_(with_force_on_ground(scene.oscillator, scene.shaking)),
         pieces_(span, scene),
-        frame_(span, scene, force_.lead),
+        frame_(span, scene, driven_.lead),
         mass_(mass),
-        oscillators_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude,
-                                                        scene.oscillator.frequency, scene.oscillator.load,
-                                                        scene.oscillator.stiffness, scene.oscillator.shape),
+        oscillators_(motion::ArcConstants<Along, E>::of(driven_.oscillator.damping, driven_.oscillator.forcing,
+                                                        driven_.oscillator.frequency, driven_.oscillator.load,
+                                                        driven_.oscillator.stiffness, driven_.oscillator.shape),
                      scene),
-        instants_(course, span, scene, oscillators_, pieces_, force_.lead),
+        instants_(course, span, scene, oscillators_, pieces_, driven_.lead),
         rule_(scene.loose),
         has_stops_(has_events_of_its_own(span.scene)) {}
 
@@ -88,7 +88,7 @@ class HousingWalk {
   void begin(const Stretch& first) {
     const motion::RelativeStart<double>& loose = first.loose;
     state_ = {Along(first.start.x, by_x), Along(first.start.v, by_v), Along(loose.origin + loose.offset, by_z),
-              Along(loose.w, by_w), force_.lead};
+              Along(loose.w, by_w), driven_.lead};
     if (pieces_.is_in_pieces()) state_.phase += pieces_.knot(first);
     if (first.wall != Side::none) state_.z = place(first.wall);
     if (first.carries) state_.w = Along(0);
@@ -296,7 +296,7 @@ class HousingWalk {
   const ObservedSpan& span_;
   const HousingExtremes& extremes_;
   const BasicScene<Along>& scene_;
-  LeadingForce<Along> force_;
+  LeadingOscillator<Along> driven_;  ///< in the frame in which the motion is computed
   DualForce<Along> pieces_;
   DualFrame<Along> frame_;
   Along mass_;  ///< over that of the units
