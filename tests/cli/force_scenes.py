@@ -107,7 +107,7 @@ def any_orders(draw):
 
 
 def driven(scenes, seed):
-    """The scenes under forces of other shapes, none of them shaken."""
+    """The scenes under forces of other shapes, shaken only under those of several orders."""
     draw = random.Random(f"force {seed}")
     changed = []
     for scene in scenes:
@@ -120,5 +120,6 @@ def driven(scenes, seed):
             shaped = {"force_shape": "table", "force_table": any_table(draw)}
         elif draw.random() < 0.3:
             shaped = any_orders(draw)
+            still = {"f": still["f"]}
         changed.append(scene.changed(**shaped, **still))
     return changed
