@@ -36,9 +36,9 @@ void refuse_others(const Settings& settings, const Moved& moved) {
   for (const Parameter level : std::array<Parameter, 2>{"friction", "friction_static"})
     if (given(level)) refuse(moved, in_quotes(level.key()), "leave out one of them, or let both stops move alike");
   if (has_loose_mass(settings)) refuse(moved, "'loose_mass'", "leave out one of them");
-  if (waveform_of(settings) != Waveform::sine)
+  if (const Waveform waveform = waveform_of(settings); waveform != Waveform::sine && waveform != Waveform::orders)
     refuse(moved, in_quotes(key_of_shape(settings)),
-           "a stop moves as a sine, so far beside a force that is one, too: leave out one of them");
+           "a stop moves as a sine, so far beside a force of sines: leave out one of them");
   if (settings.given("start_period") != nullptr)
     refuse(moved, "'start_period'", "that is of motion between standing stops: give x0 and v0 instead");
   if (const std::string method = settings.text("integrator", "method"); method != "exact")

@@ -81,36 +81,37 @@ struct LeadingOscillator {
   Number lead;
 };
 
-namespace detail {
-
-/// An oscillator under a force of several orders and a part P sin(theta) + Q cos(theta), which leads theta by a phase.
+/// An oscillator under its force of several orders and a part P sin(theta) + Q cos(theta).
 template <class Number>
-[[nodiscard]] LeadingOscillator<Number> with_part(BasicOscillator<Number> oscillator, const Number& P, const Number& Q,
-                                                  const Number& phase) {
-  using std::cos, std::sin;
+[[nodiscard]] BasicOscillator<Number> with_part(BasicOscillator<Number> oscillator, const ForceOrder<Number>& part) {
   auto& orders = oscillator.shape.orders.of;
   for (ForceOrder<Number>& order : orders)
     order = {order.in_phase * oscillator.forcing, order.quadrature * oscillator.forcing};
-  orders[0].in_phase += P * cos(phase) - Q * sin(phase);
-  orders[0].quadrature += P * sin(phase) + Q * cos(phase);
+  orders[0] = {orders[0].in_phase + part.in_phase, orders[0].quadrature + part.quadrature};
   oscillator.forcing = oscillator.shape.orders.most_of(0);
-  if (oscillator.forcing == 0) return {oscillator, Number(0)};
+  if (oscillator.forcing == 0) return oscillator;
   for (ForceOrder<Number>& order : orders)
     order = {order.in_phase / oscillator.forcing, order.quadrature / oscillator.forcing};
-  return {oscillator, Number(0)};
+  return oscillator;
 }
 
-}  // namespace detail
+/// A part P sin + Q cos of a phase that leads theta by another one, which is given by its sine and cosine.
+template <class Number>
+[[nodiscard]] ForceOrder<Number> leading(const Number& P, const Number& Q, const SineCosine<Number>& by) {
+  return {P * by.cosine - Q * by.sine, P * by.sine + Q * by.cosine};
+}
 
 /// An oscillator under the force in the frame of what is shaken. One of several orders takes what shakes it as a part
 /// of its first order, and keeps its phase.
 template <class Number>
 [[nodiscard]] LeadingOscillator<Number> with_force_in_frame(BasicOscillator<Number> oscillator,
                                                             const BasicShaking<Number>& shaking) {
+  using std::cos, std::sin;
   const auto& [h, f, nu, load, k, shape, paces] = oscillator;
   if (shape.has_orders() && !(is_always_zero(shaking.stops) && is_always_zero(shaking.base))) {
     const Number P = shaking.base * nu * nu - shaking.stops * (k - nu * nu), Q = -2 * h * nu * shaking.stops;
-    return detail::with_part(oscillator, P, Q, shaking.phase);
+    return {with_part(oscillator, leading(P, Q, SineCosine<Number>{sin(shaking.phase), cos(shaking.phase)})),
+            Number(0)};
   }
   const auto [amplitude, lead] = force_in_frame(oscillator, shaking);
   oscillator.forcing = amplitude;
@@ -121,10 +122,12 @@ template <class Number>
 template <class Number>
 [[nodiscard]] LeadingOscillator<Number> with_force_on_ground(BasicOscillator<Number> oscillator,
                                                              const BasicShaking<Number>& shaking) {
+  using std::cos, std::sin;
   const auto& [h, f, nu, load, k, shape, paces] = oscillator;
   if (shape.has_orders() && !is_always_zero(shaking.base)) {
     const Number P = k * shaking.base, Q = 2 * h * nu * shaking.base;
-    return detail::with_part(oscillator, P, Q, shaking.phase);
+    return {with_part(oscillator, leading(P, Q, SineCosine<Number>{sin(shaking.phase), cos(shaking.phase)})),
+            Number(0)};
   }
   const auto [amplitude, lead] = force_on_ground(oscillator, shaking);
   oscillator.forcing = amplitude;

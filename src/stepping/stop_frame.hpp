@@ -76,7 +76,7 @@ class StopFrame {
     const motion::Motion<Number> start{Number(0), m.x + x, m.v + v, m.a + a, m.sine, m.cosine};
     if constexpr (Of == Mass::Constants::effects)
       if (c.stop.side == Side::none) return show_by(free_, start, &arc, function);
-    show_by(over_base(c, force_on_base(c.h, c.k, mass_.constants().f)), start, &arc, function);
+    show_by(over_base(c), start, &arc, function);
   }
   /// The same with the motion of a mass that stays on the stop, from a phase on.
   template <class Function>
@@ -95,31 +95,24 @@ class StopFrame {
                                            {Number(0), Number(1)}},
               start, none, function);
     else
-      show_by(over_base(Constants::of(Number(0), Number(0), nu, Number(0), Number(0)),
-                        force_on_base(Number(0), Number(0), Number(0))),
-              start, none, function);
+      show_by(over_base(Constants::of(Number(0), Number(0), nu, Number(0), Number(0))), start, none, function);
   }
 
  private:
   StopFrame(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, Side side,
             const BasicStopMotion<Number>& motion)
-      : StopFrame(
-            scene, in_reach, side, motion,
-            force_in_frame(scene.oscillator, BasicShaking<Number>{.stops = motion.amplitude, .phase = motion.phase})) {}
+      : StopFrame(scene, in_reach, side, motion,
+                  with_force_in_frame(scene.oscillator,
+                                      BasicShaking<Number>{.stops = motion.amplitude, .phase = motion.phase})) {}
   StopFrame(const BasicScene<Number>& scene, const BasicStops<Number>& in_reach, Side side,
-            const BasicStopMotion<Number>& motion, const LeadingForce<Number>& force)
-      : mass_(typename Mass::Constants(under(scene.oscillator, force.amplitude)), alone(in_reach, side), {},
-              turns_of(Number(scene.start.phase + force.lead))),
+            const BasicStopMotion<Number>& motion, const LeadingOscillator<Number>& in_frame)
+      : mass_(typename Mass::Constants(in_frame.oscillator), alone(in_reach, side), {},
+              turns_of(Number(scene.start.phase + in_frame.lead))),
         side_(side),
         amplitude_(motion.amplitude),
-        lead_(sine_cosine_of_turns(turns_of(Number(motion.phase - force.lead)))),
-        free_(over_base(mass_.constants(),
-                        force_on_base(mass_.constants().h, mass_.constants().k, mass_.constants().f))) {}
+        lead_(sine_cosine_of_turns(turns_of(Number(motion.phase - in_frame.lead)))),
+        free_(over_base(mass_.constants())) {}
 
-  [[nodiscard]] static BasicOscillator<Number> under(BasicOscillator<Number> oscillator, const Number& force) {
-    oscillator.forcing = force;
-    return oscillator;
-  }
   [[nodiscard]] static BasicStops<Number> alone(BasicStops<Number> stops, Side side) {
     if (side != Side::lower) stops.lower = -std::numeric_limits<double>::infinity();
     if (side != Side::upper) stops.upper = std::numeric_limits<double>::infinity();
@@ -132,25 +125,30 @@ class StopFrame {
                  cosine = force.cosine * lead_.cosine - force.sine * lead_.sine, &nu = mass_.constants().nu;
     return {amplitude_ * sine, amplitude_ * nu * cosine, -amplitude_ * nu * nu * sine};
   }
-  /// The force on an oscillator as the base sees it, by the phase of that of this frame, of which it has `own`.
-  [[nodiscard]] LeadingForce<Number> force_on_base(const Number& h, const Number& k, const Number& own) const {
-    const Number &b = amplitude_, &nu = mass_.constants().nu, P = b * (k - nu * nu), Q = 2 * h * nu * b;
-    return leading_force(Number(own + P * lead_.cosine - Q * lead_.sine), Number(P * lead_.sine + Q * lead_.cosine));
-  }
   /// An oscillator as the base sees it.
   template <Effects Of>
   struct OverBase {
     motion::ArcConstants<Number, Of> constants;
     SineCosine<Number> lead;  ///< of the force on it over that of this frame
   };
-  /// One that is otherwise like that of this frame, or one of its soft stop.
+  /// That of this frame, or one of its soft stop, or a mass that no force of this frame moves.
   template <Effects Of>
-  [[nodiscard]] static OverBase<Of> over_base(const motion::ArcConstants<Number, Of>& like,
-                                              const LeadingForce<Number>& force) {
+  [[nodiscard]] OverBase<Of> over_base(const motion::ArcConstants<Number, Of>& c) const {
     using std::cos, std::sin;
-    auto constants = motion::ArcConstants<Number, Of>::of(like.h, force.amplitude, like.nu, like.load, like.k);
-    constants.stop = like.stop;
-    return {constants, {sin(force.lead), cos(force.lead)}};
+    using Constants = motion::ArcConstants<Number, Of>;
+    const Number &b = amplitude_, P = b * (c.k - c.nu * c.nu), Q = 2 * c.h * c.nu * b;
+    const ForceOrder<Number> part = leading(P, Q, lead_);
+    if (c.has_orders()) {
+      const BasicOscillator<Number> on_base =
+          with_part(BasicOscillator<Number>{c.h, c.f, c.nu, c.load, c.k, c.shape}, part);
+      OverBase<Of> over{Constants::of(c.h, on_base.forcing, c.nu, c.load, c.k, on_base.shape), {Number(0), Number(1)}};
+      over.constants.stop = c.stop;
+      return over;
+    }
+    const LeadingForce<Number> force = leading_force(Number(c.f + part.in_phase), part.quadrature);
+    OverBase<Of> over{Constants::of(c.h, force.amplitude, c.nu, c.load, c.k), {sin(force.lead), cos(force.lead)}};
+    over.constants.stop = c.stop;
+    return over;
   }
   /// Shows an arc of it, of which `start` has the phase of the force of this frame.
   template <Effects Of, class Function>

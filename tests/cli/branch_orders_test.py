@@ -4,7 +4,6 @@ Environment: CLATTER, the program.
 """
 
 import math
-import random
 import unittest
 
 import h5py
@@ -13,7 +12,7 @@ import numpy as np
 from branch_sets import Sets
 from command_line import CLATTER, CommandLine
 from followed_branches import BranchCampaign
-from force_scenes import any_orders
+from force_scenes import under_orders
 from loose_mass_test import text_of
 from random_scenes import followed_scenes
 
@@ -21,11 +20,6 @@ BOUNCING = {"h": 0.06, "f": 0.7, "nu": 0.9, "load": -0.2, "stop_lower": -0.6, "R
 BOUNCING |= {"f_2": 0.3, "phase_2": 0.7, "f_5": -0.2, "phase_5": -1.1}
 RESTING = {"h": 0.03, "f": 1.6, "nu": 0.5, "load": -1.0, "stiffness": 0.0, "stop_lower": 0.0, "R_lower": 0.3}
 RESTING |= {"f_2": 0.8, "phase_2": 0.4, "f_3": 0.3}
-
-
-def under_orders(scenes, seed):
-    draw = random.Random(f"branch orders {seed}")
-    return [scene.changed(**any_orders(draw)) for scene in scenes]
 
 
 class OfOrders(CommandLine):
@@ -53,7 +47,7 @@ class OfOrders(CommandLine):
         state = {"x0": float(found["x"][point]), "v0": float(found["v"][point]), "phase": 0.0}
         return {**scene, along: float(found[along][point]), **state}
 
-    def assert_motions(self, scene, found, along, most=15):
+    def assert_motions(self, scene, found, along, most=7):
         """Points come back after their period, and the sum of their multipliers is that of small changes of starts."""
         points = np.flatnonzero(np.isfinite(found["x"]))
         largest = np.hypot(found["multiplier_re"], found["multiplier_im"]).max(axis=1)

@@ -106,6 +106,12 @@ def any_orders(draw):
     return {**sizes, **{f"phase_{j}": draw.choice([0.0, draw.uniform(-3, 3)]) for j in some}}
 
 
+def under_orders(scenes, seed):
+    """The scenes with further orders of their force."""
+    draw = random.Random(f"orders {seed}")
+    return [scene.changed(**any_orders(draw)) for scene in scenes]
+
+
 def driven(scenes, seed):
     """The scenes under forces of other shapes, shaken only under those of several orders."""
     draw = random.Random(f"force {seed}")

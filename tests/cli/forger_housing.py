@@ -58,11 +58,11 @@ class HousedMotion(Motion):
 
     @staticmethod
     def drawn(flow, load):
-        return Flow(flow.h, flow.k, flow.f, flow.nu, flow.phase, flow.load + load) if load else flow
+        return Flow(flow.h, flow.k, flow.force, flow.load + load) if load else flow
 
     def as_one(self, alone):
         whole, load = 1 + self.mass, alone.load + self.mass * self.load
-        return Flow(alone.h / whole, alone.k / whole, alone.f / whole, alone.nu, alone.phase, load / whole)
+        return Flow(alone.h / whole, alone.k / whole, alone.force.over(whole), load / whole)
 
     def pressing(self, side, t):
         return super().pressing(side, t) + SIGN[side] * self.slide * self.rub

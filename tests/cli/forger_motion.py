@@ -5,6 +5,7 @@ Chatters end where rebounds are slower than SLOW; where this isn't certain, as i
 """
 
 import cmath
+import copy
 import math
 
 import numpy as np
@@ -19,21 +20,51 @@ class Unreliable(Exception):
     """A motion that doubles, or this simple way of following it, may get wrong."""
 
 
-class Flow:
-    """x'' + 2h x' + k x = f sin(nu t + phase) + load, in closed form."""
+class Force:
+    """f sin(theta) and further orders, sin and cos of j theta, with theta = nu t + phase."""
 
-    def __init__(self, h, k, f, nu, phase, load):
-        self.h, self.k, self.f, self.nu, self.phase, self.load = h, k, f, nu, phase, load
-        stiff = k - nu * nu + 2j * h * nu
-        if abs(stiff) < 1e-6 * (abs(k) + nu * nu) or (k == 0 and load != 0) or 0 < abs(k) < 1e-6:
-            raise Unreliable("resonance, or next to no spring")
-        self.response, self.centre = f / stiff, load / k if k else 0.0
+    def __init__(self, scene):
+        self.nu, self.phase, self.sizes = number(scene["nu"]), number(scene["phase"]), {1: complex(number(scene["f"]))}
+        for order in scene.get("orders", ()):
+            size = complex(number(order.get("sin", 0)), number(order.get("cos", 0)))
+            self.sizes[order["order"]] = self.sizes.get(order["order"], 0) + size
+
+    def over(self, mass):
+        """That on a mass which is so much larger."""
+        same = copy.copy(self)
+        same.sizes = {j: size / mass for j, size in self.sizes.items()}
+        return same
+
+    def waves(self, t):
+        """Those of unit size, by order."""
+        return {j: np.exp(1j * j * (self.nu * t + self.phase)) for j in self.sizes}
+
+    def at(self, t):
+        waves = self.waves(t)
+        return sum((size * waves[j]).imag for j, size in self.sizes.items())
+
+
+class Flow:
+    """x'' + 2h x' + k x = force + load, in closed form."""
+
+    def __init__(self, h, k, force, load):
+        self.h, self.k, self.force, self.load = h, k, force, load
+        self.responses = {}
+        for j, size in force.sizes.items():
+            nu = j * force.nu
+            stiff = k - nu * nu + 2j * h * nu
+            if abs(stiff) < 1e-6 * (abs(k) + nu * nu) or (k == 0 and load != 0) or 0 < abs(k) < 1e-6:
+                raise Unreliable("resonance, or next to no spring")
+            self.responses[j] = size / stiff
+        self.centre = load / k if k else 0.0
         self.root = cmath.sqrt(h * h - k)
-        self.step = 0.02 / max(math.sqrt(abs(k)), nu, 2 * h, 1e-3)
+        self.step = 0.02 / max(math.sqrt(abs(k)), max(force.sizes) * force.nu, 2 * h, 1e-3)
 
     def steady(self, t):
-        wave = self.response * np.exp(1j * (self.nu * t + self.phase))
-        return wave.imag + self.centre, (1j * self.nu * wave).imag
+        waves = self.force.waves(t)
+        x = sum((response * waves[j]).imag for j, response in self.responses.items())
+        v = sum((1j * j * self.force.nu * response * waves[j]).imag for j, response in self.responses.items())
+        return x + self.centre, v
 
     def at(self, start, t):
         """x and x' at some times after a start (t, x, v)."""
@@ -51,7 +82,7 @@ class Flow:
 
     def push(self, t, x, v=0.0):
         """x''."""
-        return self.f * np.sin(self.nu * t + self.phase) + self.load - self.k * x - 2 * self.h * v
+        return self.force.at(t) + self.load - self.k * x - 2 * self.h * v
 
 
 def first_fall(margins, start, end, step):
@@ -102,7 +133,8 @@ class Motion:
     """Events and pieces of a motion of a mass between stops, up to an end."""
 
     def __init__(self, scene, start, end):
-        self.scene = {name: number(value) for name, value in scene.items() if not isinstance(value, dict)}
+        self.scene = {name: number(value) for name, value in scene.items() if not isinstance(value, (dict, list))}
+        self.force = Force(scene)
         self.mu = self.scene.get("friction", 0.0)
         self.mu_static = self.scene.get("friction_static", self.mu)
         self.stops = {side: numbers(scene[side]) for side in SIGN if side in scene}
@@ -124,11 +156,11 @@ class Motion:
             k += stop["stiffness"]
             load += stop["stiffness"] * stop["position"]
         load -= (self.heading if heading is None else heading) * self.mu
-        return Flow(h, k, scene["f"], scene["nu"], scene["phase"], load)
+        return Flow(h, k, self.force, load)
 
     def pressing(self, side, t):
         scene = self.scene
-        force = scene["f"] * np.sin(scene["nu"] * t + scene["phase"]) + scene["load"]
+        force = self.force.at(t) + scene["load"]
         return SIGN[side] * (force - scene["k"] * self.stops[side]["position"]) + self.mu_static
 
     def begin(self, start):
@@ -138,9 +170,10 @@ class Motion:
             times = self.t + np.linspace(-0.5, 0.5, 4001) * period
             press = self.pressing(side, times)
             falls = np.flatnonzero((press[:-1] > 0) & (press[1:] <= 0))
-            if falls.size != 1:
+            near = falls[np.abs(times[falls] - self.t) < 0.01 * period]
+            if near.size != 1:
                 raise Unreliable("when the stop lets the mass go")
-            self.t, _ = first_fall([lambda t: self.pressing(side, t)], times[falls[0]], times[-1], period / 1e4)
+            self.t, _ = first_fall([lambda t: self.pressing(side, t)], times[near[0]], times[-1], period / 1e4)
             self.x, self.v, self.heading = self.stops[side]["position"], 0.0, -SIGN[side] if self.mu_static else 0
             return
         self.x, self.v = (number(start[name][0] if isinstance(start[name], list) else start[name]) for name in "xv")

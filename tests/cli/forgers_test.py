@@ -19,9 +19,11 @@ import forger_edits
 from carrying_scenes import carrying_scenes, carrying_scenes_beside_stops, rubbing_scenes
 from certified_runs import VERIFY, certificates_in, certified, random_certificates, verdicts
 from command_line import SOURCE, CommandLine
+from force_scenes import any_orders
 from forger_judge import Judge, Truth, Unreliable
 from forger_motion import Flow, Motion
 from random_scenes import compliant_scenes, pressing_scenes, random_scenes, rubbed_scenes
+from scene_runs import keys_of
 
 FORGED, SEED = int(os.environ.get("CLATTER_FORGED", "700")), int(os.environ.get("CLATTER_SEED", "1"))
 FROM_ONE = 40  # forgeries of a certificate
@@ -103,11 +105,18 @@ class Simulation(unittest.TestCase):
 
 
 @unittest.skipUnless(VERIFY, "Arb wasn't found when the build was configured, so there is no clatter-verify")
+def scenes_under_orders(count, seed):
+    """Keys of scenes whose force has several orders."""
+    draw = random.Random(f"orders {seed}")
+    scenes = [keys_of(scene) for make in (pressing_scenes, compliant_scenes) for scene in make(count, seed=seed)]
+    return [{**keys, **any_orders(draw)} for keys in scenes + carrying_scenes(count, seed=seed)]
+
+
 class Forgers(CommandLine):
     def true_certificates(self, scenes, seed):
         """Certificates of all kinds, written by clatter certify."""
         kinds = (random_scenes, pressing_scenes, compliant_scenes, rubbed_scenes, carrying_scenes)
-        kinds += (carrying_scenes_beside_stops, rubbing_scenes)
+        kinds += (carrying_scenes_beside_stops, rubbing_scenes, scenes_under_orders)
         for make in kinds:
             place = self.directory / f"{make.__name__}_{seed}"
             for file in random_certificates(place, make(scenes, seed=seed)):

@@ -8,9 +8,10 @@ import json
 import random
 import unittest
 
-from branch_orders_test import BOUNCING, RESTING, under_orders
+from branch_orders_test import BOUNCING, RESTING
 from certified_runs import VERIFY, certificates_in, random_certificates, verdicts, verified
 from command_line import CommandLine
+from force_scenes import under_orders
 from loose_mass_test import text_of
 from random_scenes import carrying_scenes, followed_scenes
 

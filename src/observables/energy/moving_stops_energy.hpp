@@ -12,6 +12,7 @@
 #include "motion/soft_stop.hpp"
 #include "observables/energy/energy.hpp"
 #include "observables/energy/quadrature.hpp"
+#include "scene/phased_force.hpp"
 
 namespace clatter::observables {
 
@@ -37,7 +38,7 @@ class MovingStopsEnergy {
     evaluations_ +=
         over_panels<20>(length, pace_of(arc.constants()).with(o.frequency), 2, [&](double s, double weight) {
           const motion::Motion<double> m = arc.at(s);
-          const double force = o.forcing * std::sin(phase_ + o.frequency * (begins + s));
+          const double force = force_at(o.forcing, o.shape, phase_ + o.frequency * (begins + s)).value;
           force_work += weight * force * m.v, squares += weight * m.v * m.v;
           if (side == Side::none) return;
           const double carried = velocity_of(side, begins + s),
