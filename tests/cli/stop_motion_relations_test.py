@@ -9,6 +9,7 @@ import unittest
 
 import numpy as np
 
+from force_scenes import any_orders
 from stop_motion_test import DRIVEN, LIMITS, Motions, moving, stop_at
 
 STRETCHED = 1e-12  # some thousand roundings of 1, as which impacts stretch one; the scenes drawn here take 5e-14
@@ -33,6 +34,8 @@ def drawn(index):
     else:
         scene |= {"R": draw.choice([0.0, 0.4, 0.8, 1.0])}
     scene |= {"x0": draw.uniform(-0.1, 0.1), "v0": draw.uniform(-1, 1)}
+    if scene["f"] and index % 3 == 0:
+        scene |= any_orders(random.Random(f"orders {index}"))
     return scene, draw
 
 
