@@ -29,11 +29,11 @@ struct ForceOrders {
 
   std::array<ForceOrder<Number>, most> of{};  ///< [order - 1]
 
-  /// Calls `see(j, value, slope)` for j = 1 ... 8: the part of order j, and its derivative by j theta.
+  /// Calls `see(j, value, slope)` for j = 1 up to the highest: the part of order j, and its derivative by j theta.
   template <class See>
   void each(const SineCosine<Number>& theta, See&& see) const {
     SineCosine<Number> turned{Number(0), Number(1)};  // by j theta
-    for (std::size_t j = 1; j <= most; ++j) {
+    for (std::size_t j = 1, last = highest(); j <= last; ++j) {
       turned = {turned.sine * theta.cosine + turned.cosine * theta.sine,
                 turned.cosine * theta.cosine - turned.sine * theta.sine};
       const auto& [a, b] = of[j - 1];
