@@ -14,7 +14,7 @@ from command_line import CLATTER, CommandLine
 from followed_branches import BranchCampaign
 from force_scenes import under_orders
 from loose_mass_test import text_of
-from random_scenes import followed_scenes
+from random_scenes import followed_scenes, rubbing_scenes, slipping_scenes
 
 BOUNCING = {"h": 0.06, "f": 0.7, "nu": 0.9, "load": -0.2, "stop_lower": -0.6, "R_lower": 0.7}
 BOUNCING |= {"f_2": 0.3, "phase_2": 0.7, "f_5": -0.2, "phase_5": -1.1}
@@ -188,6 +188,12 @@ class Relations(OfOrders):
 class Campaigns(CommandLine):
     def test_points_of_random_branches_are_motions(self):
         scenes = under_orders(followed_scenes(14, 5), 5)
+        campaign = BranchCampaign(CLATTER, scenes)
+        self.assertEqual(campaign.failures, [])
+        self.assertGreater(campaign.points, 100)
+
+    def test_points_under_friction_are_motions(self):
+        scenes = under_orders(slipping_scenes(16, 7), 7) + under_orders(rubbing_scenes(10, 8), 8)
         campaign = BranchCampaign(CLATTER, scenes)
         self.assertEqual(campaign.failures, [])
         self.assertGreater(campaign.points, 100)

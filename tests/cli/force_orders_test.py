@@ -164,7 +164,6 @@ class Refused(CommandLine):
         order = BASE + "f_3 = 0.2\n"
         table = '[scene]\nxs = 1\nforce_table = "period, f; 0, 1; 0.5, -1; 1, 1"\n'
         for text, words in (
-            (order + 'friction = 0.1\n[branch]\nalong = "nu"\nrange = [0.5, 1.5]\n', ("under a sine alone", "follow")),
             (order + '[observe]\nsensitivity = "f_2"\n', ("f_2", "leave it out")),
             (order + '[observe]\nsensitivity = "phase_2"\n', ("phase_2", "leave it out")),
             (order + 'force_shape = "square"\n', ("'f_3' beside 'force_shape' = 'square'", "leave one of them out")),

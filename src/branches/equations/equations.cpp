@@ -74,11 +74,12 @@ First left_at_halt(const SceneNumbers<First>& p, const OrbitEvent& halt, const C
   const First x = p.middle() + First(halt.place, by_before);
   const double sign = sign_of(condition.side);
   if (condition.kind == Condition::Kind::on_stop) return x - p.position(condition.side) - sign * condition.amount;
-  const auto [f, lead] = p.force();
   const First level = condition.kind == Condition::Kind::kinetic ? p.friction.kinetic : p.friction.static_level,
               left = level - sign * p.standing_force(x, halt.held_by());
-  if (condition.kind == Condition::Kind::tangency) return left - abs(f);
-  return left - sign * f * sin(First(halt.phase, by_begin) + lead);
+  if (condition.kind != Condition::Kind::tangency) return left - sign * p.force_at(First(halt.phase, by_begin)).value;
+  if (!p.oscillator.shape.has_orders()) return left - abs(p.force().amplitude);
+  const PushOfOrders<First> push(p.oscillator.forcing, p.oscillator.shape.orders, condition.side);
+  return left - push.crest_height(halt.phase, left.value);
 }
 /// The number that a condition on one event makes 0.
 First left_of(const SceneNumbers<First>& p, const OrbitEvent& event, const Condition& condition) {

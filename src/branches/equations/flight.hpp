@@ -9,6 +9,7 @@
 
 #include "branches/equations/followed_scene.hpp"
 #include "branches/equations/orbit.hpp"
+#include "branches/equations/push_of_orders.hpp"
 #include "math/number.hpp"
 #include "motion/arc.hpp"
 #include "motion/dry_friction.hpp"
@@ -132,20 +133,24 @@ class Flights {
   /// beyond. A crest that is the level to rounding is the release.
   [[nodiscard]] Number hold(const Standing<Number>& at, Side side) const {
     using std::atan, std::sqrt;
+    if (pushes_) return push_of_orders(side).hold(at.phase, level_to(at, side));
     const Number sine = push_at_release(at, side);
-    if (is_at_crest(sine)) return hold_to_crest(at.phase, side);
+    if (is_at_crest(sine)) return hold_to_crest(at, side);
     if (sine >= 1 || sine <= -1) return (sine > 0 ? 1 : -1) * std::numeric_limits<double>::infinity();
     return atan(sine / sqrt((1 - sine) * (1 + sine))) - of_push(at.phase, side);
   }
-  /// The forcing phase, rad, from that at which the mass halts on to the crest of the push.
-  [[nodiscard]] Number hold_to_crest(const Number& phase, Side side) const {
-    return std::numbers::pi / 2 - of_push(phase, side);
+  /// The forcing phase, rad, from that at which the mass halts on to the crest of the push, under several orders of it
+  /// to the one that is most nearly as high as the level.
+  [[nodiscard]] Number hold_to_crest(const Standing<Number>& at, Side side) const {
+    if (pushes_) return push_of_orders(side).hold_to_crest(at.phase, level_to(at, side));
+    return std::numbers::pi / 2 - of_push(at.phase, side);
   }
   /// The phase at which motion begins after the event that a flight begins with.
   [[nodiscard]] Number start(const Flight<Number>& flight) const {
     if (flight.leaves != Event::Kind::stick) return flight.begin;
-    if (flight.from_crest) return flight.begin + hold_to_crest(flight.begin, flight.from);
-    return flight.begin + hold_and_beyond({flight.coordinate, flight.begin, flight.held_by}, flight.from);
+    const Standing<Number> at{flight.coordinate, flight.begin, flight.held_by};
+    if (flight.from_crest) return flight.begin + hold_to_crest(at, flight.from);
+    return flight.begin + hold_and_beyond(at, flight.from, Number(flight.end - flight.begin));
   }
 
   /// Calls `function(arc)` with the arc that a mass at a place goes on with, in contact with a soft stop or not.
@@ -218,8 +223,8 @@ class Flights {
   }
   /// Force on a mass that halts.
   [[nodiscard]] Number force_on(const Standing<Number>& at) const {
-    using std::sin;
-    return constants_.f * sin(at.phase + lead_) + p_.standing_force(Number(p_.middle() + at.place), at.held_by);
+    const Number force = clatter::force_at(constants_.f, p_.oscillator.shape, Number(at.phase + lead_)).value;
+    return force + p_.standing_force(Number(p_.middle() + at.place), at.held_by);
   }
   /// Its acceleration as it slips towards a side.
   [[nodiscard]] Number acceleration(const Standing<Number>& at, Side side) const {
@@ -237,7 +242,10 @@ class Flights {
                                                        p_.oscillator.load, p_.oscillator.stiffness,
                                                        p_.oscillator.shape)),
         soft_(constants_, p_.stops) {
-    if (!is_always_zero(p_.friction.kinetic)) slips_.emplace(constants_, p_.friction, p_.stops);
+    if (is_always_zero(p_.friction.kinetic)) return;
+    slips_.emplace(constants_, p_.friction, p_.stops);
+    const auto push = [&](Side side) { return PushOfOrders<Number>(constants_.f, p_.oscillator.shape.orders, side); };
+    if (p_.oscillator.shape.has_orders()) pushes_.emplace(std::pair(push(Side::lower), push(Side::upper)));
   }
 
   /// The constants of motion towards a side.
@@ -245,11 +253,18 @@ class Flights {
     return slips_ ? slips_->towards(side) : constants_;
   }
 
-  /// The push to a side at which a mass at a place is released, over that at its crest.
+  [[nodiscard]] const PushOfOrders<Number>& push_of_orders(Side side) const {
+    return side == Side::lower ? pushes_->first : pushes_->second;
+  }
+  /// The push to a side at which a mass at a place is released.
+  [[nodiscard]] Number level_to(const Standing<Number>& at, Side side) const {
+    const Number force = p_.standing_force(Number(p_.middle() + at.place), at.held_by);
+    return p_.friction.static_level - sign_of(side) * force;
+  }
+  /// That over the push at its crest.
   [[nodiscard]] Number push_at_release(const Standing<Number>& at, Side side) const {
     using std::abs;
-    const Number force = p_.standing_force(Number(p_.middle() + at.place), at.held_by);
-    return (p_.friction.static_level - sign_of(side) * force) / abs(constants_.f);
+    return level_to(at, side) / abs(constants_.f);
   }
   [[nodiscard]] static bool is_at_crest(const Number& push) {
     constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
@@ -257,12 +272,17 @@ class Flights {
   }
   /// `hold`, which beyond the crest goes on as it comes there: as far behind it as a push as much weaker is before it.
   /// That is no motion, but a step towards the crest passes through there: a release a way before it has a place by the
-  /// square of that, so no line from there leads to the crest.
-  [[nodiscard]] Number hold_and_beyond(const Standing<Number>& at, Side side) const {
+  /// square of that, so no line from there leads to the crest. Under several orders a later crest may release the mass
+  /// as well, if that is before a flight from there has an end, a phase `end` after the halt.
+  [[nodiscard]] Number hold_and_beyond(const Standing<Number>& at, Side side, const Number& end) const {
     using std::atan, std::sqrt;
+    if (pushes_) {
+      const Number held = hold(at, side);
+      return held < end ? held : push_of_orders(side).hold_beyond_crest(at.phase, level_to(at, side));
+    }
     const Number push = push_at_release(at, side);
     if (!(push > 1) || is_at_crest(push)) return hold(at, side);
-    return hold_to_crest(at.phase, side) + atan(sqrt((push - 1) * (push + 1)));
+    return hold_to_crest(at, side) + atan(sqrt((push - 1) * (push + 1)));
   }
 
   /// The phase of the push to a side from zero on its way up, between the crests: -3 pi/2 ... pi/2.
@@ -357,7 +377,9 @@ class Flights {
   Number lead_;
   motion::ArcConstants<Number, E> constants_;
   motion::SoftContact<Number> soft_;
-  std::optional<motion::Slips<Number, E>> slips_{};  ///< with dry friction
+  std::optional<motion::Slips<Number, E>> slips_{};  ///< with dry friction,
+  /// and under several orders their pushes to both sides
+  std::optional<std::pair<PushOfOrders<Number>, PushOfOrders<Number>>> pushes_{};
 };
 
 }  // namespace clatter::branches

@@ -104,9 +104,7 @@ inline ImpactMap map_of(const std::vector<Link<double>>& links, double determina
 /// The acceleration after a reversal, towards a side, over that before (eq. 64).
 template <class Number>
 Number reversal_factor(const SceneNumbers<Number>& p, Side to, const Standing<Number>& at) {
-  using std::sin;
-  const auto [f, lead] = p.force();
-  const Number push = f * sin(at.phase + lead) + p.standing_force(Number(p.middle() + at.place), at.held_by),
+  const Number push = p.force_at(at.phase).value + p.standing_force(Number(p.middle() + at.place), at.held_by),
                rubs = sign_of(to) * p.friction.kinetic;
   return (push - rubs) / (push + rubs);
 }
@@ -114,13 +112,12 @@ Number reversal_factor(const SceneNumbers<Number>& p, Side to, const Standing<Nu
 /// By how much the velocity after a stick changes with its place (eq. 65).
 template <class Number, Effects E>
 Number release_factor(const Flights<Number, E>& flights, const Flight<Number>& flight) {
-  using std::cos;
   const SceneNumbers<Number>& p = flights.parameters();
   const Number a = sign_of(flight.from) * (p.friction.static_level - p.friction.kinetic);
   if (a == 0) return a;
   Number k = p.oscillator.stiffness;
   if (flight.held_by != Side::none) k += p.soft_stop(flight.held_by).stiffness;
-  return -a * k / (p.force().amplitude * p.oscillator.frequency * cos(flights.start(flight) + flights.lead()));
+  return -a * k / (p.oscillator.frequency * p.force_at(flights.start(flight)).slope);
 }
 
 /// The derivative of a flight's end by the state before the event that it begins with (eqs. 7, 27, 53, 64 and 65),

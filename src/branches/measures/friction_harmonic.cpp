@@ -1,5 +1,7 @@
 #include "branches/measures/friction_harmonic.hpp"
 
+#include <utility>
+
 #include "branches/equations/flight.hpp"
 
 namespace clatter::branches {
@@ -24,6 +26,26 @@ void add_balance(const LeadingForce<Along>& force, const Span& span, const Along
   sum.im += share * (length * cos(force.lead) - (sin(twice) - sin(before)) / 2);
 }
 
+/// Adds a force that balances one of several orders: sin(j theta) and cos(j theta) times e^{-i theta} have the orders
+/// j - 1 and j + 1.
+void add_balance(const Along& f, const ForceOrders<Along>& orders, const Span& span, const Along& nu, Harmonic& sum) {
+  const auto integrals = [&](std::size_t number) -> std::pair<Along, Along> {  // of a sine and a cosine
+    if (number == 0) return {Along(0), span.end - span.begin};
+    const auto order = static_cast<double>(number);
+    return {(cos(order * span.begin) - cos(order * span.end)) / order,
+            (sin(order * span.end) - sin(order * span.begin)) / order};
+  };
+  for (std::size_t j = 1; j <= ForceOrders<Along>::most; ++j) {
+    const auto& [a, b] = orders.of[j - 1];
+    if (is_always_zero(a) && is_always_zero(b)) continue;
+    const auto [sine_below, cosine_below] = integrals(j - 1);
+    const auto [sine_above, cosine_above] = integrals(j + 1);
+    const Along share = f / (2 * nu);
+    sum.re -= share * (a * (sine_above + sine_below) + b * (cosine_above + cosine_below));
+    sum.im += share * (a * (cosine_below - cosine_above) + b * (sine_above - sine_below));
+  }
+}
+
 template <Effects E>
 Harmonic harmonic_of(const Moving& moving) {
   const Flights<Along, E> flights(moving.p);
@@ -40,7 +62,10 @@ Harmonic harmonic_of(const Moving& moving) {
     if (from.kind != Event::Kind::stick) continue;
     const Along place = moving.p.middle() + from.coordinate;
     add_constant(-flights.constants().constant_force(place), {from.phase, start}, nu, sum);
-    add_balance(moving.p.force(), {from.phase, start}, nu, sum);
+    if (const BasicOscillator<Along>& o = moving.p.oscillator; o.shape.has_orders())
+      add_balance(o.forcing, o.shape.orders, {from.phase, start}, nu, sum);
+    else
+      add_balance(moving.p.force(), {from.phase, start}, nu, sum);
   }
   return sum;
 }

@@ -105,10 +105,6 @@ void require_friction_to_follow(const point::Problem& problem) {
     throw StartError(
         "branches of motion under dry friction are followed without a loose mass alone; sweep the parameter with "
         "follow instead, or leave out friction or loose_mass");
-  if (has_friction(problem.friction) && problem.oscillator.shape.has_orders())
-    throw StartError(
-        "branches of motion under dry friction are followed under a sine alone; sweep the parameter with follow "
-        "instead, or leave out friction or the orders of the force");
 }
 
 /// Gives each halt the side that the mass slips to from there, which is that of the next event, and the soft stop that

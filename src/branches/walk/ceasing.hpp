@@ -6,8 +6,18 @@
 
 namespace clatter::branches {
 
-/// The phase near another one at which the force pushes the most to a side.
-[[nodiscard]] double crest_near(const SceneNumbers<double>& p, Side side, double phase);
+/// A crest of the push to a side: its phase, the push there, and by how much it falls with half of the square of the
+/// phase.
+struct Crest {
+  double phase, height, bend;
+};
+/// The one after a halt that may let the mass go to a side: of several the one that is most nearly as strong as the
+/// level.
+[[nodiscard]] Crest crest_after(const SceneNumbers<double>& p, const OrbitEvent& halt, Side side);
+
+/// The phase nearest to another one at which the push to a side falls through a level; of a push that doesn't come as
+/// far its crest.
+[[nodiscard]] double fall_near(const SceneNumbers<double>& p, Side side, double phase, double level);
 
 /// Where friction comes up to the force, so that it holds the mass at rest for good: the limit of motion whose slips,
 /// all of them to sticks, vanish. Its sticks are those of the orbit near it, each from the crest of the push to one

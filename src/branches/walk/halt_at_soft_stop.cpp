@@ -64,7 +64,7 @@ Orbit with_halt_beside(const FollowedScene& scene, const Orbit& orbit, std::size
     const double begin = with_arcs(scene, [&]<Effects E>() { return Flights<double, E>{p}.start(flight); });
     const double a =
         sticks ? p.friction.static_level - p.friction.kinetic : std::abs(acceleration_from(scene, halt, halt.side));
-    const double jerk = sticks ? std::abs(p.force().amplitude * nu * std::cos(begin + p.force().lead)) : 0.0;
+    const double jerk = sticks ? std::abs(nu * p.force_at(begin).slope) : 0.0;
     const Start start = start_over(depth, within ? relaxation : 0.0, a, jerk);
     out = out.with({side, begin + nu * start.time, sign_of(halt.side) * start.speed,
                     within ? Event::Kind::separation : Event::Kind::touch},

@@ -35,8 +35,7 @@ bool holds(const FollowedScene& scene, const OrbitEvent& halt, Side side) {
 
 /// Whether the force that pushes a halting mass to its side rises.
 bool push_rises(const FollowedScene& scene, const OrbitEvent& halt) {
-  const LeadingForce<double> force = numbers_of<double>(scene).force();
-  return sign_of(halt.side) * force.amplitude * std::cos(halt.phase + force.lead) > 0;
+  return sign_of(halt.side) * numbers_of<double>(scene).force_at(halt.phase).slope > 0;
 }
 
 /// Whether motion jumps where a push comes to the static level.
@@ -162,7 +161,8 @@ Orbit first_of_odd(const Orbit& orbit, double tolerance) {
 /// Whether motion may be its own mirror image: between stops that are each other's, or where it doesn't meet them.
 bool may_be_mirrored(const FollowedScene& scene, const Orbit& orbit, const Condition& condition) {
   if (is_symmetric(scene)) return true;
-  return condition.kind != Kind::on_stop && scene.oscillator.stiffness != 0 && orbit.is_of_free_halts();
+  return condition.kind != Kind::on_stop && scene.oscillator.stiffness != 0 && is_odd_by_half(scene.oscillator.shape) &&
+         orbit.is_of_free_halts();
 }
 
 /// A change that comes to the motion in each of its repetitions, or also in its mirror image, as that of the first one:
@@ -298,7 +298,7 @@ void add_releases_at_crest(const OrbitEquations& equations, const CurvePoint& at
     const OrbitEvent& stick = orbit.events[i];
     if (stick.kind != Event::Kind::stick) continue;
     const double before = of_flights(scene, [&](const auto& flights) {
-      return flights.hold_to_crest(stick.phase, stick.side) - flights.hold(standing_at(stick), stick.side);
+      return flights.hold_to_crest(standing_at(stick), stick.side) - flights.hold(standing_at(stick), stick.side);
     });
     if (before < near_crest)
       changes.push_back({SpecialKind::release_tangency, orbit, level(Kind::tangency, i, stick.side), HaltForm::stick});

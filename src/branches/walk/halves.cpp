@@ -82,7 +82,8 @@ std::optional<MetHalves> halves_met(const OrbitEquations& equations, const Walk&
 
 std::optional<Orbit> half_of_free_slips(const FollowedScene& scene, const Orbit& orbit) {
   constexpr double same = 1e-6;
-  const Orbit half = orbit.half_if_same(same, scene.oscillator.stiffness != 0);
+  const bool may_mirror = scene.oscillator.stiffness != 0 && is_odd_by_half(scene.oscillator.shape);
+  const Orbit half = orbit.half_if_same(same, may_mirror);
   if (orbit.mirrored || !half.mirrored || 2 * half.size() != orbit.size()) return std::nullopt;
   if (half.size() == 0 || !half.is_of_free_halts()) return std::nullopt;
   return half;

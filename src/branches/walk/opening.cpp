@@ -71,10 +71,9 @@ Orbit with_turn(const FollowedScene& scene, const Orbit& orbit, std::size_t stic
   const SceneNumbers<double> p = numbers_of<double>(scene);
   OrbitEvent turn = orbit.events[stick], halt = turn;
   turn.kind = Event::Kind::reversal, turn.side = opposite(orbit.heading_before(stick));
-  const double f = std::abs(p.force().amplitude), nu = p.oscillator.frequency, sign = sign_of(turn.side);
-  const double needed = p.friction.static_level - sign * p.standing_force(p.middle() + turn.place, turn.held_by()),
-               after_crest = std::acos(std::clamp(needed / f, -1.0, 1.0));
-  const double at_level = crest_near(p, turn.side, turn.phase) + after_crest, c = f * nu * std::sin(after_crest);
+  const double nu = p.oscillator.frequency, sign = sign_of(turn.side);
+  const double needed = p.friction.static_level - sign * p.standing_force(p.middle() + turn.place, turn.held_by());
+  const double at_level = fall_near(p, turn.side, turn.phase, needed), c = std::abs(nu * p.force_at(at_level).slope);
   turn.phase = at_level - advance / 2, halt.phase = at_level + advance / 2;
   halt.place += sign * c * std::pow(advance / nu, 3) / 12;
   Orbit out = orbit;
@@ -83,21 +82,21 @@ Orbit with_turn(const FollowedScene& scene, const Orbit& orbit, std::size_t stic
 }
 
 /// An orbit with a stick as if the push the other way came above the level at its crest, and the mass slipped from then
-/// on for `advance` of the phase. With |f| - |f| b^2/2 the push at a phase b from the crest, a slip from b = -r on ends
-/// at b = 2r, and moves the mass by 9/8 |f| r^4/nu^2.
+/// on for `advance` of the phase. With P - C b^2/2 the push at a phase b from the crest, P = C = |f| under a sine, a
+/// slip from b = -r on ends at b = 2r, and moves the mass by 9/8 C r^4/nu^2.
 Orbit with_release(const FollowedScene& scene, const Orbit& orbit, std::size_t stick, double advance) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
-  const double f = std::abs(p.force().amplitude), r = advance / 3;
+  const double r = advance / 3;
   OrbitEvent held = orbit.events[stick], halt = held;
   held.side = opposite(halt.side);
-  const double crest = crest_near(p, held.side, held.phase);
-  halt.phase = (crest < held.phase ? crest + 2 * std::numbers::pi : crest) + 2 * r;
   const double sign = sign_of(held.side);
+  const Crest crest = crest_after(p, held, held.side);
+  halt.phase = crest.phase + 2 * r;
   const double k =
       p.oscillator.stiffness + (held.held_by() == Side::none ? 0.0 : p.soft_stop(held.held_by()).stiffness);
   const double balance = p.standing_force(p.middle() + held.place, held.held_by());
-  if (k != 0) held.place += (balance + sign * (f * (1 - r * r / 2) - p.friction.static_level)) / k;
-  halt.place = held.place + sign * 9 / 8.0 * f * std::pow(r, 4) / std::pow(p.oscillator.frequency, 2);
+  if (k != 0) held.place += (balance + sign * (crest.height - crest.bend * r * r / 2 - p.friction.static_level)) / k;
+  halt.place = held.place + sign * 9 / 8.0 * crest.bend * std::pow(r, 4) / std::pow(p.oscillator.frequency, 2);
   Orbit out = orbit;
   out.events[stick] = halt;
   return out.with(held, stick);
