@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "deadline.hpp"
+#include "release.hpp"
 
 namespace verify {
 

@@ -43,9 +43,6 @@ struct Event {
   std::size_t release = 0;  ///< of a rest: which of the phases of a turn at which the stop may let go ends it
 };
 
-/// Turns by which these phases are apart at least.
-constexpr double releases_apart = 1e-6;
-
 /// Whether a stop holds the mass, or a wall the loose mass.
 [[nodiscard]] inline bool holds(Kind kind) { return kind == Kind::rest || kind == Kind::press; }
 /// Whether an event has an end of its own, `until`.

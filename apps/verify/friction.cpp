@@ -68,18 +68,13 @@ Event Motion::stop_moving(const Ball& end) {
 /// The first phase from a time on at which the force passes the level of friction at a place (eqs. 26 and 65); nothing
 /// if it never does.
 std::optional<Motion::Release> Motion::release_to(int way, const Ball& time, const Ball& x) const {
-  if (scene_.force.is_zero()) return std::nullopt;
-  if (!scene_.force.is_sine()) throw Undecided("a stick under a force of several orders");
   const Spring acting = spring();
-  const Ball& f = scene_.force.orders[0].in_phase;
-  const Ball sine = (acting.k * x - acting.load + Ball(way) * scene_.friction_static) / f;
-  if (abs(sine) > Ball(1)) return std::nullopt;
-  if (!(abs(sine) < Ball(1))) throw Undecided("whether the force ever overcomes friction");
-  const bool rises = (f * Ball(way)).is_positive();
-  const Ball theta = rises ? asin(sine) : Ball::pi() - asin(sine), cosine = sin_cos(theta).second;
-  const slong turns = ((scene_.nu * time + scene_.phase - theta) / (Ball(2) * Ball::pi())).floor() + 1;
-  const Ball whole = Ball(turns) * Ball(2) * Ball::pi();
-  return Release{way, (theta + whole - scene_.phase) / scene_.nu, acting.k / (f * scene_.nu * cosine)};
+  const Press<Ball> press{scene_.force, Ball(-way), scene_.friction_static - Ball(way) * (acting.load - acting.k * x)};
+  const std::vector<Ball> phases = falls_of(press);
+  if (phases.empty()) return std::nullopt;
+  const PhaseOfRelease release = first_after(phases, scene_.nu * time + scene_.phase);
+  const Ball rate = scene_.nu * scene_.force.at(phases[release.number]).second;
+  return Release{way, (release.of(phases) - scene_.phase) / scene_.nu, acting.k / rate};
 }
 
 /// Friction holds the mass up to its release, a strike of a loose mass or a time.

@@ -7,6 +7,7 @@
 #include "event.hpp"
 #include "first_crossing.hpp"
 #include "moving_set.hpp"
+#include "release.hpp"
 
 namespace verify {
 
@@ -61,11 +62,7 @@ class Motion {
   [[nodiscard]] FourByFour derivative() const { return set_.derivative(); }  ///< of the state at the end by the start
   [[nodiscard]] Four by_parameter() const { return set_.by_parameter(); }
   [[nodiscard]] Ball start_time() const { return start_time_; }
-  /// The last release of a stop: of the phases of a turn at which it may let go, in their order, which one, and turns.
-  struct PhaseOfRelease {
-    slong turns = 0;
-    std::size_t number = 0;
-  };
+  /// The last release of a stop.
   [[nodiscard]] const PhaseOfRelease& release() const { return release_; }
 
   [[nodiscard]] const std::vector<Stretch>& stretches() const { return stretches_; }

@@ -187,8 +187,8 @@ void require_possible(const Certificate& certificate, Motion& motion, const Ball
   if (report.finding().verdict == Verdict::refuted) throw Refuted(report.first_refuted());
 }
 
-void require_same_release(const Certificate& certificate, const Course& course, const Motion::PhaseOfRelease& first,
-                          const Motion::PhaseOfRelease& last) {
+void require_same_release(const Certificate& certificate, const Course& course, const PhaseOfRelease& first,
+                          const PhaseOfRelease& last) {
   if (!course.ends_with_release() || course.events().back().side != *certificate.released ||
       last.number != first.number)
     throw Refuted("the motion doesn't end with the release that it starts with");

@@ -47,8 +47,8 @@ struct Response {
 
 /// Throws Refuted if a motion that starts with a release doesn't end with the same one after the claimed periods, or
 /// does so before.
-void require_same_release(const Certificate& certificate, const Course& course, const Motion::PhaseOfRelease& first,
-                          const Motion::PhaseOfRelease& last);
+void require_same_release(const Certificate& certificate, const Course& course, const PhaseOfRelease& first,
+                          const PhaseOfRelease& last);
 
 /// The periodic motion near the claimed start, by Newton's step and Krawczyk's operator. Throws Refuted or Undecided.
 [[nodiscard]] Orbit orbit_near(const Certificate& certificate, const Scene& scene);

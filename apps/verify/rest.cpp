@@ -1,113 +1,19 @@
-#include <algorithm>
-
 #include "motion.hpp"
 
 namespace verify {
 namespace {
 
-constexpr const char* unknown_release = "whether the force ever releases the mass";
-
-/// A force that presses a mass into a stop, and what holds it against a pull away from there, as a function of the
-/// phase.
+/// What presses the mass into a stop, and what holds it there by friction.
 template <class Number>
-struct Press {
-  BasicForce<Number> force;
-  Number sign, constant;
-
-  /// It and its derivative by the phase.
-  [[nodiscard]] std::pair<Number, Number> at(const Number& theta) const {
-    const auto [value, slope] = force.at(theta);
-    return {sign * value + constant, sign * slope};
-  }
-};
-template <class Number>
-Press<Number> press_of(const BasicScene<Number>& scene, Side side) {
+Press<Number> hold_on(const BasicScene<Number>& scene, Side side) {
   const Number sign(sign_of(side));
   return {scene.force, sign, sign * (scene.load - scene.k * scene.stop(side).position) + scene.friction_static};
 }
-
-/// The phases of a turn, from one that no scene is likely to have such a phase at, at which a force of several orders
-/// falls to 0. A part of the turn has none if the force isn't 0 on it, and one at most if it is monotone there.
-class Falls {
- public:
-  explicit Falls(const Press<Ball>& press) : press_(press) {
-    look(first, first + 1, 40);
-    for (std::size_t i = 0; i < phases_.size(); ++i) {
-      const Ball next = i + 1 < phases_.size() ? phases_[i + 1] : phases_[0] + phase(1);
-      if (!(next - phases_[i] > phase(releases_apart))) throw Undecided(unknown_release);
-    }
-  }
-
-  [[nodiscard]] const std::vector<Ball>& found() const { return phases_; }
-
- private:
-  static constexpr double first = 0.1371;  ///< turns
-
-  [[nodiscard]] static Ball phase(double turns) { return Ball(turns) * Ball(2) * Ball::pi(); }
-  void look(double begin, double end, int halvings) {
-    const Ball all = Ball::hull(phase(begin), phase(end));
-    const auto [height, slope] = press_.at(all);
-    if (height.is_positive() || height.is_negative()) return;
-    if (slope.is_positive() || slope.is_negative()) {
-      const Ball before = press_.at(phase(begin)).first, after = press_.at(phase(end)).first;
-      const bool is_known = !before.overlaps(Ball(0)) && !after.overlaps(Ball(0));
-      if (is_known && before.is_positive() && after.is_negative()) phases_.push_back(root(begin, end, slope));
-      if (is_known) return;
-    }
-    if (halvings == 0) throw Undecided(unknown_release);
-    look(begin, (begin + end) / 2, halvings - 1), look((begin + end) / 2, end, halvings - 1);
-  }
-  /// By the mean value theorem from a place that is nearly the root.
-  [[nodiscard]] Ball root(double begin, double end, const Ball& slope) const {
-    double low = begin, high = end;
-    for (int i = 0; i < 50; ++i) {
-      const double middle = (low + high) / 2;
-      (press_.at(phase(middle)).first.near() > 0 ? low : high) = middle;
-    }
-    Ball theta = phase((low + high) / 2);
-    for (slong known = 32; known < 2 * bits; known *= 2) {
-      const auto [height, steepness] = press_.at(theta);
-      theta = (theta - height / steepness).middle();
-    }
-    if (!(phase(begin) < theta && theta < phase(end))) throw Undecided(unknown_release);
-    return theta - press_.at(theta).first / slope;
-  }
-
-  const Press<Ball>& press_;
-  std::vector<Ball> phases_;
-};
-
-std::vector<Ball> falls_of(const Press<Ball>& press) { return Falls(press).found(); }
-/// With their derivatives by the parameter.
-std::vector<Dual> falls_of(const Press<Dual>& press) {
-  const Press<Ball> values{values_of(press.force), press.sign.value, press.constant.value};
-  std::vector<Dual> falls;
-  for (const Ball& theta : falls_of(values))
-    falls.emplace_back(theta, -press.at(Dual(theta)).first.slope / values.at(theta).second);
-  return falls;
-}
-
-/// The phases of a turn at which the force that presses the mass falls to 0, in their order: of a sine one, at which
-/// sin(theta) is what balances it, and decreases for the force that presses.
-template <class Number>
-std::vector<Number> phases_of_release(const BasicScene<Number>& scene, Side side) {
-  const Press<Number> press = press_of(scene, side);
-  if (!scene.force.is_sine()) return falls_of(press);
-  const Number& f = scene.force.orders[0].in_phase;
-  const Number u = -press.sign * press.constant / f;
-  if (!(abs(u) < Number(1))) throw Undecided(unknown_release);
-  const bool falls = (f * press.sign).is_positive();
-  return {falls ? Number(Ball::pi()) - asin(u) : asin(u)};
-}
 /// Whether no phase of the force lets a mass go that a stop holds at one.
 bool holds_for_ever(const Scene& scene, Side side) {
-  const Press<Ball> press = press_of(scene, side);
+  const Press<Ball> press = hold_on(scene, side);
   if ((press.constant - scene.force.most()).is_positive()) return true;
-  return !scene.force.is_zero() && !scene.force.is_sine() && Falls(press).found().empty();
-}
-template <class Number>
-Number time_of_phase(const BasicScene<Number>& scene, const Number& theta, slong turns) {
-  return (theta + Number(Ball(turns) * Ball(2) * Ball::pi()) - scene.phase) / scene.nu;
+  return !scene.force.is_zero() && falls_of(press).empty();
 }
 
 }  // namespace
@@ -115,24 +21,14 @@ Number time_of_phase(const BasicScene<Number>& scene, const Number& theta, slong
 /// The instant at which the force that presses the mass into a stop falls to 0: the first one after a time, or the
 /// nearest one.
 Dual Motion::time_of_release(Side side, const Ball& after, bool nearest) {
-  const Ball turn = Ball(2) * Ball::pi(), here = scene_.nu * after + scene_.phase;
-  const std::vector<Ball> phases = phases_of_release(acting(), side);
-  std::vector<Ball> distances;
-  std::vector<PhaseOfRelease> releases;
-  for (const Ball& theta : phases) {
-    const Ball turns = (here - theta) / turn;
-    releases.push_back({nearest ? (turns + Ball(0.5)).floor() : turns.floor() + 1, releases.size()});
-    distances.push_back(abs(theta + Ball(releases.back().turns) * turn - here));
-  }
-  const auto first = std::ranges::min_element(distances, {}, &Ball::near);
-  if (first == distances.end()) throw Undecided(unknown_release);
-  for (const Ball& other : distances)
-    if (&other != &*first && !(*first < other)) throw Undecided("which of two phases releases the mass");
-  release_ = releases[static_cast<std::size_t>(first - distances.begin())];
-  if (family_ == nullptr) return time_of_phase(scene_, phases[release_.number], release_.turns);
-  const std::vector<Dual> moving = phases_of_release(family_->scene, side);
-  if (moving.size() != phases.size()) throw Undecided(unknown_release);
-  return time_of_phase(family_->scene, moving[release_.number], release_.turns);
+  const std::vector<Ball> phases = falls_of(hold_on(acting(), side));
+  const Ball here = scene_.nu * after + scene_.phase;
+  release_ = nearest ? nearest_to(phases, here) : first_after(phases, here);
+  if (family_ == nullptr) return (release_.of(phases) - scene_.phase) / scene_.nu;
+  const MovingScene& moving = family_->scene;
+  const std::vector<Dual> moved = falls_of(hold_on(moving, side));
+  if (moved.size() != phases.size()) throw Undecided("whether the force ever releases the mass");
+  return (release_.of(moved) - moving.phase) / moving.nu;
 }
 
 void Motion::let_main_go(Side side) {

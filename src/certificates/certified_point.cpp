@@ -213,22 +213,11 @@ KnownResult::KnownResult(const Problem& problem, const PointResult& result)
     x_min = result.x_min, x_max = result.x_max;
 }
 
-namespace {
-
-/// Whether the format has a claim of motion under the force of a scene: of none in pieces, and of sticks under none of
-/// several orders.
-bool is_claimed_force(const Scene& scene) {
-  const ForceShape& shape = scene.oscillator.shape;
-  return shape.is_sine() || (shape.has_orders() && !has_friction(scene.friction));
-}
-
-}  // namespace
-
 CertifiedPoint certified_period(const Problem& problem, const PointResult& result) {
   CertifiedPoint point{.status = result.status};
   if (!is_driven(problem.oscillator))
     point.without = Without::force;
-  else if (!is_claimed_force(problem))
+  else if (problem.oscillator.shape.is_in_pieces())
     point.without = Without::force_shape;
   else if (move_by_themselves(problem.stops))
     point.without = Without::stop_motion;
@@ -242,7 +231,7 @@ CertifiedPoint certified(const Problem& problem, const KnownResult& known, point
   CertifiedPoint point{.status = known.status};
   if (known.status == Status::grazing) point.without = Without::graze;
   if (known.status != Status::periodic && known.status != Status::transient) return point;
-  if (has_soft_wall(problem.loose) || !is_claimed_force(problem)) {
+  if (has_soft_wall(problem.loose) || problem.oscillator.shape.is_in_pieces()) {
     point.without = has_soft_wall(problem.loose) ? Without::soft_wall : Without::force_shape;
     return point;
   }

@@ -22,7 +22,7 @@ std::string reason_of(const CertifiedPoint& point) {
     case Without::soft_wall:
       return "with a soft wall of the loose mass";
     case Without::force_shape:
-      return "under a force in pieces, or of several orders beside dry friction";
+      return "under a force in pieces";
     case Without::stop_motion:
       return "between stops that move by themselves";
     case Without::law_of_speed:
