@@ -108,16 +108,6 @@ class Relations(OfOneMotion):
             with self.subTest(key):
                 self.compare(shaken, still)
 
-    def test_growth_at_a_resonance_with_an_order_is_told(self):
-        for order, escapes in (("f_3", True), ("f_2", False)):
-            scene = {"h": 0.0, "f": 0.4, "nu": 1 / 3, "stop_lower": -math.inf, "stop_upper": math.inf, order: 0.2}
-            self.write("a.toml", text_of(scene, {}, {"extrema": True}))
-            self.clatter("run", "a.toml", "-o", "a.h5", "-q", "--force")
-            with h5py.File(self.directory / "a.h5") as file:
-                status = file["status"]
-                told = dict(zip(status.attrs["flag_values"], status.attrs["flag_meanings"].split()))[status[()]]
-            self.assertEqual(told == "escaped", escapes, order)
-
     def test_orders_of_size_0_leave_a_sine(self):
         self.compare(BOUNCING, {**BOUNCING, "f_2": 0.0, "phase_2": 0.4})
 
@@ -187,6 +177,16 @@ class Refused(CommandLine):
             self.write("a.toml", BASE + f"{line}\n[observe]\nextrema = true\n")
             told = self.clatter("plan", "a.toml")
             self.assertIn(remedy, told.stdout + told.stderr)
+
+    def test_growth_at_a_resonance_with_an_order_is_told(self):
+        for order, escapes in (("f_3", True), ("f_2", False)):
+            scene = {"h": 0.0, "f": 0.4, "nu": 1 / 3, "stop_lower": -math.inf, "stop_upper": math.inf, order: 0.2}
+            self.write("a.toml", text_of(scene, {}, {"extrema": True}))
+            self.clatter("run", "a.toml", "-o", "a.h5", "-q", "--force")
+            with h5py.File(self.directory / "a.h5") as file:
+                status = file["status"]
+                told = dict(zip(status.attrs["flag_values"], status.attrs["flag_meanings"].split()))[status[()]]
+            self.assertEqual(told == "escaped", escapes, order)
 
     def test_the_plan_names_the_orders(self):
         self.write("a.toml", BASE + "f_3 = 0.25\nf_8 = -0.5\n[observe]\nextrema = true\n")

@@ -108,7 +108,7 @@ class Relations(Motions):
                 draw.uniform(-3, 3),
             )
             mirror = {**scene, "stop_lower": -scene["stop_upper"], "stop_upper": -scene["stop_lower"]}
-            for key in ("f", "load", "x0", "v0"):
+            for key in ("f", "load", "x0", "v0", *(key for key in scene if key.startswith("f_"))):
                 mirror[key] = -scene[key]
             with self.subTest(index, lower=lower, upper=upper, **scene):
                 mine = self.transient({**scene, **moving(lower, upper)}, 12.0, 9)
