@@ -104,19 +104,22 @@ MALFORMED_LAWS = [
 ]
 
 MALFORMED_ORDERS = [
-    (in_scene(orders={"order": 2, "sin": 1}), "scene.orders: is no list; write"),
-    (in_scene(orders=[{"order": 0, "sin": 1}]), "scene.orders.0.order: is out of range; write 1 to 100"),
-    (in_scene(orders=[{"order": 2.5, "sin": 1}]), "scene.orders.0.order: is no whole number; write 1 or more"),
-    (in_scene(orders=[{"order": 1, "sin": 1}]), "scene.orders.0.sin: of order 1 is f; give f, and leave it out"),
-    (in_scene(orders=[{"order": 3}]), "scene.orders.0: has neither sin nor cos; give one of them, or both"),
+    (in_scene(orders={"order": 2, "sin": 1}), "scene.orders: is no array; write"),
+    (in_scene(orders=[{"order": 0, "sin": 1}]), r"scene.orders\[0\].order: is out of range; write 1 to 100"),
+    (in_scene(orders=[{"order": 2.5, "sin": 1}]), r"scene.orders\[0\].order: is no whole number; write 1 or more"),
+    (in_scene(orders=[{"order": 1, "sin": 1}]), r"scene.orders\[0\].sin: of order 1 is f; give f, and leave it out"),
+    (in_scene(orders=[{"order": 3}]), r"scene.orders\[0\]: has neither sin nor cos; give one of them, or both"),
     (
         in_scene(orders=[{"order": 3, "sin": 1}, {"order": 3, "cos": 1}]),
-        "scene.orders.1: is of an order that was given",
+        r"scene.orders\[1\]: is of an order that was given",
     ),
-    (in_scene(orders=[{"order": 3, "sin": 1, "size": 2}]), "size: has no meaning here; leave it out"),
+    (
+        in_scene(orders=[{"order": 3, "sin": 1, "size": 2}]),
+        r"scene.orders\[0\]: the member 'size' has no meaning here; leave it out",
+    ),
     (
         {**SPECIAL, "slopes": {"orders": [{"order": 2, "sin": 1}]}},
-        "slopes.orders.0: is of an order that the scene hasn",
+        r"slopes.orders\[0\]: is of an order that the scene hasn",
     ),
 ]
 MALFORMED = MALFORMED_LAWS + [  # a line, and the place and how to fix it that are told

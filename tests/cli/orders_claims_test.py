@@ -13,7 +13,7 @@ from certified_runs import VERIFY, certificates_in, random_certificates, verdict
 from command_line import CommandLine
 from force_scenes import under_orders
 from loose_mass_test import text_of
-from random_scenes import carrying_scenes, followed_scenes
+from random_scenes import carrying_scenes, followed_scenes, slipping_scenes
 
 TURN = "6.283185307179586476925286766559005768394338798"
 ERROR = 1e-15
@@ -25,6 +25,15 @@ def forced(orders, k, end):
     start = {"time": 0, "x": 0, "v": 0}
     whole = {"format": "clatter-certificate-1", "scene": scene, "claim": "transient", "start": start, "events": []}
     return whole | {"end": {"time": TURN, "x": [end[0], ERROR], "v": [end[1], ERROR]}}
+
+
+def moves(certificate):
+    """Whether nothing holds the mass for good, whatever the force is."""
+    return any(event["event"] not in ("rest", "stick") for event in certificate["events"])
+
+
+def shifted(claimed, by):
+    return [claimed[0] + by, claimed[1]]
 
 
 @unittest.skipUnless(VERIFY, "without Arb there is no clatter-verify")
@@ -64,7 +73,7 @@ class OrdersClaims(CommandLine):
             told = verified(file)
             self.assertEqual(told["refuted"], 0)
             self.assertGreaterEqual(told["proved"], 9 * told["undecided"])
-            certificates = [one for one in certificates_in(file) if one["scene"].get("orders")]
+            certificates = [one for one in certificates_in(file) if one["scene"].get("orders") and moves(one)]
             self.assertGreater(len(certificates), 6)
             for one in certificates:
                 order = draw.choice(one["scene"]["orders"])
@@ -93,8 +102,33 @@ class OrdersClaims(CommandLine):
         for one in certificates:
             one["scene"]["orders"][0]["sin"] *= 1 + 1e-6
         self.assertEqual(set(self.verdicts_of(certificates)), {"refuted"})
+
+    def test_a_stop_lets_go_at_several_phases_of_a_period(self):
         twice = self.branch({**RESTING, "f_2": 1.6, "phase_2": 2.2}, (0.45, 0.55), period=1)[::40]
-        self.assertEqual(set(self.verdicts_of(twice)), {"undecided"})
+        self.assertEqual({one["word"] for one in twice}, {"L*L*"})
+        self.assertEqual(set(self.verdicts_of(twice)), {"proved"})
+        for one in twice:
+            length = 6.283185307179586 / one["scene"]["nu"]
+            later = [{**event, "time": shifted(event["time"], length)} for event in one["events"]]
+            later = [
+                {**event, "until": shifted(event["until"], length)} if "until" in event else event for event in later
+            ]
+            one["periods"], one["events"], one["word"] = 2, one["events"] + later, "L*L*L*L*"
+        self.assertEqual(set(self.verdicts_of(twice)), {"refuted"})
+
+    def test_sticks_end_where_the_push_exceeds_friction(self):
+        draw, scenes = random.Random(31), under_orders(slipping_scenes(24, 31), 31)
+        for file in random_certificates(self.directory, scenes):
+            told = verified(file)
+            self.assertEqual(told["refuted"], 0)
+            self.assertGreaterEqual(told["proved"], 9 * told["undecided"])
+            sticks = [one for one in certificates_in(file) if any(event["event"] == "stick" for event in one["events"])]
+            sticks = [one for one in sticks if moves(one)]
+            self.assertGreater(len(sticks), 4)
+            for one in sticks:
+                event = draw.choice([event for event in one["events"] if event["event"] == "stick"])
+                event["until"] = shifted(event["until"], draw.choice([-1, 1]) * 1e-4)
+            self.assertNotIn("proved", self.verdicts_of(sticks))
 
 
 if __name__ == "__main__":
