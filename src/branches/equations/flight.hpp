@@ -2,14 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "branches/equations/followed_scene.hpp"
 #include "branches/equations/orbit.hpp"
-#include "branches/equations/push_of_orders.hpp"
+#include "branches/equations/releases.hpp"
 #include "math/number.hpp"
 #include "motion/arc.hpp"
 #include "motion/dry_friction.hpp"
@@ -62,17 +60,6 @@ struct Flight {
            (arrives == Event::Kind::touch && from == to && p.soft_stop(to).damping == 0);
   }
 };
-
-/// A mass at x' = 0, at a place that counts from `SceneNumbers::middle`, when the forcing phase is this, in rad;
-/// perhaps beyond the position of a soft stop.
-template <class Number>
-struct Standing {
-  Number place, phase;
-  Side held_by = Side::none;
-};
-[[nodiscard]] inline Standing<double> standing_at(const OrbitEvent& halt) {
-  return {halt.place, halt.phase, halt.held_by()};
-}
 
 /// The end of a flight, beside the stop `to`.
 template <class Number>
@@ -128,29 +115,14 @@ class Flights {
   [[nodiscard]] Number left_to_level(const Standing<Number>& at, Side side) const {
     return p_.friction.static_level - sign_of(side) * force_on(at);
   }
-  /// The forcing phase, rad, from which on so strong a push rises beyond the static level (the guide's formula), less
-  /// that at which the mass halts: negative if that is later, up to the push's crest. Infinite: it never or always is
-  /// beyond. A crest that is the level to rounding is the release.
-  [[nodiscard]] Number hold(const Standing<Number>& at, Side side) const {
-    using std::atan, std::sqrt;
-    if (pushes_) return push_of_orders(side).hold(at.phase, level_to(at, side));
-    const Number sine = push_at_release(at, side);
-    if (is_at_crest(sine)) return hold_to_crest(at, side);
-    if (sine >= 1 || sine <= -1) return (sine > 0 ? 1 : -1) * std::numeric_limits<double>::infinity();
-    return atan(sine / sqrt((1 - sine) * (1 + sine))) - of_push(at.phase, side);
-  }
-  /// The forcing phase, rad, from that at which the mass halts on to the crest of the push, under several orders of it
-  /// to the one that is most nearly as high as the level.
-  [[nodiscard]] Number hold_to_crest(const Standing<Number>& at, Side side) const {
-    if (pushes_) return push_of_orders(side).hold_to_crest(at.phase, level_to(at, side));
-    return std::numbers::pi / 2 - of_push(at.phase, side);
-  }
+  /// When dry friction lets a mass go that it holds.
+  [[nodiscard]] const Releases<Number>& releases() const { return *releases_; }
   /// The phase at which motion begins after the event that a flight begins with.
   [[nodiscard]] Number start(const Flight<Number>& flight) const {
     if (flight.leaves != Event::Kind::stick) return flight.begin;
     const Standing<Number> at{flight.coordinate, flight.begin, flight.held_by};
-    if (flight.from_crest) return flight.begin + hold_to_crest(at, flight.from);
-    return flight.begin + hold_and_beyond(at, flight.from, Number(flight.end - flight.begin));
+    if (flight.from_crest) return flight.begin + releases_->hold_to_crest(at, flight.from);
+    return flight.begin + releases_->hold_and_beyond(at, flight.from, Number(flight.end - flight.begin));
   }
 
   /// Calls `function(arc)` with the arc that a mass at a place goes on with, in contact with a soft stop or not.
@@ -244,52 +216,12 @@ class Flights {
         soft_(constants_, p_.stops) {
     if (is_always_zero(p_.friction.kinetic)) return;
     slips_.emplace(constants_, p_.friction, p_.stops);
-    const auto push = [&](Side side) { return PushOfOrders<Number>(constants_.f, p_.oscillator.shape.orders, side); };
-    if (p_.oscillator.shape.has_orders()) pushes_.emplace(std::pair(push(Side::lower), push(Side::upper)));
+    releases_.emplace(p_, force);
   }
 
   /// The constants of motion towards a side.
   [[nodiscard]] const motion::ArcConstants<Number, E>& towards(Side side) const {
     return slips_ ? slips_->towards(side) : constants_;
-  }
-
-  [[nodiscard]] const PushOfOrders<Number>& push_of_orders(Side side) const {
-    return side == Side::lower ? pushes_->first : pushes_->second;
-  }
-  /// The push to a side at which a mass at a place is released.
-  [[nodiscard]] Number level_to(const Standing<Number>& at, Side side) const {
-    const Number force = p_.standing_force(Number(p_.middle() + at.place), at.held_by);
-    return p_.friction.static_level - sign_of(side) * force;
-  }
-  /// That over the push at its crest.
-  [[nodiscard]] Number push_at_release(const Standing<Number>& at, Side side) const {
-    using std::abs;
-    return level_to(at, side) / abs(constants_.f);
-  }
-  [[nodiscard]] static bool is_at_crest(const Number& push) {
-    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-    return push >= 1 && push <= 1 + rounding;
-  }
-  /// `hold`, which beyond the crest goes on as it comes there: as far behind it as a push as much weaker is before it.
-  /// That is no motion, but a step towards the crest passes through there: a release a way before it has a place by the
-  /// square of that, so no line from there leads to the crest. Under several orders a later crest may release the mass
-  /// as well, if that is before a flight from there has an end, a phase `end` after the halt.
-  [[nodiscard]] Number hold_and_beyond(const Standing<Number>& at, Side side, const Number& end) const {
-    using std::atan, std::sqrt;
-    if (pushes_) {
-      const Number held = hold(at, side);
-      return held < end ? held : push_of_orders(side).hold_beyond_crest(at.phase, level_to(at, side));
-    }
-    const Number push = push_at_release(at, side);
-    if (!(push > 1) || is_at_crest(push)) return hold(at, side);
-    return hold_to_crest(at, side) + atan(sqrt((push - 1) * (push + 1)));
-  }
-
-  /// The phase of the push to a side from zero on its way up, between the crests: -3 pi/2 ... pi/2.
-  [[nodiscard]] Number of_push(const Number& phase, Side side) const {
-    constexpr double turn = 2 * std::numbers::pi, quarter = turn / 4;
-    const Number of = phase + lead_ + (sign_of(side) * constants_.f < 0 ? std::numbers::pi : 0.0);
-    return of - turn * std::round((static_cast<double>(of) + quarter) / turn);
   }
 
   template <Effects of>
@@ -377,9 +309,8 @@ class Flights {
   Number lead_;
   motion::ArcConstants<Number, E> constants_;
   motion::SoftContact<Number> soft_;
-  std::optional<motion::Slips<Number, E>> slips_{};  ///< with dry friction,
-  /// and under several orders their pushes to both sides
-  std::optional<std::pair<PushOfOrders<Number>, PushOfOrders<Number>>> pushes_{};
+  std::optional<motion::Slips<Number, E>> slips_{};  ///< with dry friction
+  std::optional<Releases<Number>> releases_{};       ///< likewise
 };
 
 }  // namespace clatter::branches

@@ -57,7 +57,7 @@ double hold(const FollowedScene& scene, const OrbitEvent& event) {
   if (event.kind != Event::Kind::stick) return 0.0;
   return with_arcs(scene, [&]<Effects E>() {
     const Flights<double, E> flights{numbers_of<double>(scene)};
-    return flights.hold(standing_at(event), event.side);
+    return flights.releases().hold(standing_at(event), event.side);
   });
 }
 

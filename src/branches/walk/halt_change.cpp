@@ -26,7 +26,7 @@ double of_flights(const FollowedScene& scene, Function&& function) {
 }
 /// How long friction holds a mass where it halts against a push to its side, rad.
 double held(const FollowedScene& scene, const OrbitEvent& halt) {
-  return of_flights(scene, [&](const auto& flights) { return flights.hold(standing_at(halt), halt.side); });
+  return of_flights(scene, [&](const auto& flights) { return flights.releases().hold(standing_at(halt), halt.side); });
 }
 /// Whether friction holds a mass against a push to a side at the instant at which it halts.
 bool holds(const FollowedScene& scene, const OrbitEvent& halt, Side side) {
@@ -298,7 +298,8 @@ void add_releases_at_crest(const OrbitEquations& equations, const CurvePoint& at
     const OrbitEvent& stick = orbit.events[i];
     if (stick.kind != Event::Kind::stick) continue;
     const double before = of_flights(scene, [&](const auto& flights) {
-      return flights.hold_to_crest(standing_at(stick), stick.side) - flights.hold(standing_at(stick), stick.side);
+      const auto& releases = flights.releases();
+      return releases.hold_to_crest(standing_at(stick), stick.side) - releases.hold(standing_at(stick), stick.side);
     });
     if (before < near_crest)
       changes.push_back({SpecialKind::release_tangency, orbit, level(Kind::tangency, i, stick.side), HaltForm::stick});

@@ -32,7 +32,7 @@ std::optional<Violation> at_halt(const Flights<double, E>& flights, const Orbit&
   const Standing<double> at = standing_at(halt);
   if (!grazes && flights.soft_stop_around(at.place) != at.held_by) return Violation{pulls, i, {}};
   const auto holds = [&](Side side) { return flights.left_to_level(at, side) >= 0; };
-  const auto release = [&](Side side) { return flights.hold(at, side); };
+  const auto release = [&](Side side) { return flights.releases().hold(at, side); };
   const Side before = orbit.heading_before(i), other = opposite(halt.side);
   if (halt.kind == Event::Kind::reversal)
     return holds(halt.side) ? std::optional(Violation{sticks, i, {}}) : std::nullopt;
