@@ -175,11 +175,12 @@ Certificate::SceneNumbers slopes_of(const Field& field, const Certificate::Scene
   slopes.orders = scene.orders;
   for (Certificate::OrderNumbers& order : slopes.orders) order.sine = order.cosine = Number();
   if (const auto orders = field.find("orders"))
-    for (const Field& item : orders->items()) {
-      const long number = item.get("order").count(1, most_order);
-      const auto of = std::ranges::find(slopes.orders, number, &Certificate::OrderNumbers::order);
-      if (of == slopes.orders.end()) item.refuse("is of an order that the scene hasn't", "give the scene that, with 0");
-      of->sine = slope(item, "sin"), of->cosine = slope(item, "cos");
+    for (const Certificate::OrderNumbers& given : orders_of(*orders)) {
+      const auto of = std::ranges::find(slopes.orders, given.order, &Certificate::OrderNumbers::order);
+      if (of == slopes.orders.end())
+        orders->refuse("has the order " + std::to_string(given.order) + ", which the scene hasn't",
+                       "give the scene that, with 0");
+      *of = given, moves = moves || given.sine != Number() || given.cosine != Number();
     }
   if (!moves) field.refuse("leaves the scene as it is", "give the slope of a number that the parameter changes");
   return slopes;

@@ -40,7 +40,7 @@ struct Event {
   Slopes slopes{};
   Ball x{};                 ///< of a reversal or a stick: the place; of a turn or a hold z
   bool of_wall = false;     ///< of a loose mass
-  std::size_t release = 0;  ///< of a rest: which of the phases of a turn at which the stop may let go ends it
+  std::size_t release = 0;  ///< of a rest: which of the phases of a turn at which the stop may let go comes next
 };
 
 /// Whether a stop holds the mass, or a wall the loose mass.

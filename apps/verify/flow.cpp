@@ -44,10 +44,10 @@ auto BasicFlow<Number>::part_of(const BasicOrder<Number>& order) const -> Part {
   const Number detuning = squared_rate(k_, part.nu);
   part.resonant = h_.is_zero() && detuning.is_zero();
   if (part.resonant) return part;
-  const Number quadrature = Number(2) * h_ * part.nu, size = square(detuning) + square(quadrature);
+  const Number resistance = Number(2) * h_ * part.nu, size = square(detuning) + square(resistance);
   const auto& [j, A, B] = order;
-  part.sine = A * detuning / size, part.cosine = -A * quadrature / size;
-  if (!B.is_zero()) part.sine = part.sine + B * quadrature / size, part.cosine = part.cosine + B * detuning / size;
+  part.sine = A * detuning / size, part.cosine = -A * resistance / size;
+  if (!B.is_zero()) part.sine = part.sine + B * resistance / size, part.cosine = part.cosine + B * detuning / size;
   return part;
 }
 

@@ -54,13 +54,13 @@ class BasicFlow {
     Vector free_;   ///< (x, v) less the particular solution at s = 0
   };
 
-  /// The steady response to a sine, the only periodic motion without an event if it has one: centre +
+  /// The steady response to a force of order 1, the only periodic motion without an event if it has one: centre +
   /// amplitude sin(theta - lag).
   struct Response {
     Number centre, amplitude;
     Number in_phase, quadrature;  ///< centre + in_phase sin(theta) + quadrature cos(theta)
   };
-  /// Nothing if there is none or many, or of several orders.
+  /// Nothing if there is none or many, or the force has other orders.
   [[nodiscard]] std::optional<Response> response() const;
   /// The derivative of (x, v) after a time by (x, v).
   [[nodiscard]] Matrix propagator(const Number& s) const;

@@ -58,12 +58,11 @@ struct BasicForce {
     }
     return sum;
   }
-  /// Bound of its amount, and of that of its derivative by theta.
-  [[nodiscard]] Number most() const {
-    return sum_of_sizes([](int) { return 1; });
-  }
+  /// Bound of the amount of its derivative by theta.
   [[nodiscard]] Number steepest() const {
-    return sum_of_sizes([](int j) { return j; });
+    Number sum(0);
+    for (const auto& [j, A, B] : orders) sum = sum + Number(j) * (B.is_zero() ? abs(A) : sqrt(square(A) + square(B)));
+    return sum;
   }
   /// The sum of the squares of its orders, 0 if it vanishes.
   [[nodiscard]] Number squares() const {
@@ -76,18 +75,6 @@ struct BasicForce {
     BasicForce same = *this;
     for (auto& order : same.orders) order.in_phase = order.in_phase / mass, order.quadrature = order.quadrature / mass;
     return same;
-  }
-
- private:
-  template <class Weight>
-  [[nodiscard]] Number sum_of_sizes(const Weight& weight) const {
-    Number sum(0);
-    for (const auto& order : orders) {
-      const bool is_sine = order.quadrature.is_zero();
-      sum = sum + Number(weight(order.j)) *
-                      (is_sine ? abs(order.in_phase) : sqrt(square(order.in_phase) + square(order.quadrature)));
-    }
-    return sum;
   }
 };
 

@@ -140,7 +140,7 @@ class Motion {
 
   // Of the main mass: rest.cpp, friction.cpp.
   void rebound(Side side, const Ball& time);
-  [[nodiscard]] Dual time_of_release(Side side, const Ball& after, bool nearest);
+  [[nodiscard]] std::optional<Dual> time_of_release(Side side, const Ball& after, bool nearest);
   void let_main_go(Side side);
   void collapse_on(Side side);
   void start_with_release(const Start& start);

@@ -22,7 +22,7 @@ class Falls {
   [[nodiscard]] const std::vector<Ball>& found() const { return phases_; }
 
  private:
-  static constexpr double first = 0.1371;  ///< turns
+  static constexpr double first = 35.0 / 256;  ///< turns; so that all parts of the turn have exact ends
 
   [[nodiscard]] static Ball phase(double turns) { return Ball(turns) * Ball(2) * Ball::pi(); }
   void look(double begin, double end, int halvings) {
@@ -69,19 +69,16 @@ std::vector<Number> falls_of_sine(const Press<Number>& press) {
   return {falls ? Number(Ball::pi()) - asin(u) : asin(u)};
 }
 
-template <class Turns>
-PhaseOfRelease least_far(const std::vector<Ball>& phases, const Ball& here, const Turns& turns) {
-  const Ball turn = Ball(2) * Ball::pi();
+/// The one of some that is least far from a phase; `is_nearer` proves it of another one and its distance.
+template <class Nearer>
+PhaseOfRelease least_far(const std::vector<PhaseOfRelease>& releases, const std::vector<Ball>& phases, const Ball& here,
+                         const Nearer& is_nearer) {
   std::vector<Ball> distances;
-  std::vector<PhaseOfRelease> releases;
-  for (const Ball& theta : phases) {
-    releases.push_back({turns((here - theta) / turn), releases.size()});
-    distances.push_back(abs(releases.back().of(phases) - here));
-  }
+  for (const PhaseOfRelease& release : releases) distances.push_back(abs(release.of(phases) - here));
   const auto first = std::ranges::min_element(distances, {}, &Ball::near);
   if (first == distances.end()) throw Undecided(unknown_release);
   for (const Ball& other : distances)
-    if (&other != &*first && !(*first < other)) throw Undecided("which of two phases releases the mass");
+    if (&other != &*first && !is_nearer(*first, other)) throw Undecided("which of two phases releases the mass");
   return releases[static_cast<std::size_t>(first - distances.begin())];
 }
 
@@ -101,10 +98,21 @@ std::vector<Dual> falls_of(const Press<Dual>& press) {
 }
 
 PhaseOfRelease first_after(const std::vector<Ball>& phases, const Ball& here) {
-  return least_far(phases, here, [](const Ball& turns) { return turns.floor() + 1; });
+  std::vector<PhaseOfRelease> releases;
+  for (const Ball& theta : phases)
+    releases.push_back({((here - theta) / (Ball(2) * Ball::pi())).floor() + 1, releases.size()});
+  return least_far(releases, phases, here, [](const Ball& one, const Ball& other) { return one < other; });
 }
 PhaseOfRelease nearest_to(const std::vector<Ball>& phases, const Ball& here) {
-  return least_far(phases, here, [](const Ball& turns) { return (turns + Ball(0.5)).floor(); });
+  const Ball turn = Ball(2) * Ball::pi();
+  std::vector<PhaseOfRelease> releases;
+  for (const Ball& theta : phases)
+    releases.push_back({((here - theta) / turn + Ball(0.5)).middle().floor(), releases.size()});
+  const auto nearest = least_far(releases, phases, here, [&](const Ball& one, const Ball& other) {
+    return one < other && one < turn - other;  // in the turns beside it, too
+  });
+  if (!(abs(nearest.of(phases) - here) < turn / Ball(2))) throw Undecided("which of two phases releases the mass");
+  return nearest;
 }
 
 }  // namespace verify

@@ -9,19 +9,14 @@ Press<Number> hold_on(const BasicScene<Number>& scene, Side side) {
   const Number sign(sign_of(side));
   return {scene.force, sign, sign * (scene.load - scene.k * scene.stop(side).position) + scene.friction_static};
 }
-/// Whether no phase of the force lets a mass go that a stop holds at one.
-bool holds_for_ever(const Scene& scene, Side side) {
-  const Press<Ball> press = hold_on(scene, side);
-  if ((press.constant - scene.force.most()).is_positive()) return true;
-  return !scene.force.is_zero() && falls_of(press).empty();
-}
 
 }  // namespace
 
 /// The instant at which the force that presses the mass into a stop falls to 0: the first one after a time, or the
-/// nearest one.
-Dual Motion::time_of_release(Side side, const Ball& after, bool nearest) {
+/// nearest one. Nothing if it never does: what presses at one phase does so at all.
+std::optional<Dual> Motion::time_of_release(Side side, const Ball& after, bool nearest) {
   const std::vector<Ball> phases = falls_of(hold_on(acting(), side));
+  if (phases.empty()) return std::nullopt;
   const Ball here = scene_.nu * after + scene_.phase;
   release_ = nearest ? nearest_to(phases, here) : first_after(phases, here);
   if (family_ == nullptr) return (release_.of(phases) - scene_.phase) / scene_.nu;
@@ -40,7 +35,9 @@ void Motion::let_main_go(Side side) {
 }
 
 void Motion::start_with_release(const Start& start) {
-  time_ = time_of_release(start.side, start.time, true), start_time_ = time_.value;
+  const auto release = time_of_release(start.side, start.time, true);
+  if (!release) throw Undecided("whether the force ever releases the mass");
+  time_ = *release, start_time_ = time_.value;
   collapse_on(start.side);
   let_main_go(start.side);
 }
@@ -188,19 +185,18 @@ Event Motion::finish_rest_on_stop(const Ball& end) {
   const Side side = side_;
   const Stop& stop = scene_.stop(side);
   other_places_.push_back(stop.position);
-  const bool for_ever = holds_for_ever(acting(), side);
-  const Dual release = for_ever ? Dual(end) : time_of_release(side, rest_begin_, false);
-  event.release = for_ever ? 0 : release_.number;
-  const bool lets_go = !for_ever && (release.value <= end || release.value.overlaps(end));
-  if (strikes_before(lets_go ? release.value : end)) {
+  const std::optional<Dual> release = time_of_release(side, rest_begin_, false);
+  if (release) event.release = release_.number;
+  const bool lets_go = release && (release->value <= end || release->value.overlaps(end));
+  if (strikes_before(lets_go ? release->value : end)) {
     event.until = due_->time;
     return event;
   }
   if (scene_.loose)
-    move_to_end(flight_from(state_of(set_.hull())), lets_go ? release.value : end, Ball(0));
+    move_to_end(flight_from(state_of(set_.hull())), lets_go ? release->value : end, Ball(0));
   else
     collapse_on(side);
-  time_ = lets_go ? release : Dual(end), event.until = time_.value;
+  time_ = lets_go ? *release : Dual(end), event.until = time_.value;
   if (lets_go)
     let_main_go(side);
   else

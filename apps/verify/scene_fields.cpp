@@ -107,8 +107,10 @@ Certificate::LooseNumbers loose_of(const Field& field) {
   return loose;
 }
 
-/// Further orders of the force, each once.
+}  // namespace
+
 std::vector<Certificate::OrderNumbers> orders_of(const Field& field) {
+  constexpr long most_order = 100;
   std::vector<Certificate::OrderNumbers> orders;
   for (const Field& item : field.items()) {
     const int number = static_cast<int>(item.get("order").count(1, most_order));
@@ -121,8 +123,6 @@ std::vector<Certificate::OrderNumbers> orders_of(const Field& field) {
   }
   return orders;
 }
-
-}  // namespace
 
 Certificate::SceneNumbers scene_of(const Field& field) {
   Certificate::SceneNumbers scene{

@@ -105,10 +105,7 @@ void require_limits(const MovingScene& scene, Report& report) {
   };
   require_above("h", scene.h, Dual(0), true);
   require_above("nu", scene.nu, Dual(0), false);
-  if (scene.force.is_sine())
-    require_above("the amount of f", abs(scene.force.orders[0].in_phase), Dual(0), false);
-  else
-    require_above("the square of the force", scene.force.squares(), Dual(0), false);
+  require_above("the square of the force", scene.force.squares(), Dual(0), false);
   for (const auto& stop : scene.stops) {
     if (!stop) continue;
     require_above("R", stop->R, Dual(0), true), require_above("1 - R", Dual(1) - stop->R, Dual(0), true);
@@ -157,10 +154,10 @@ Ball length_at(const Certificate& certificate, const Place& at) {
   return Ball(certificate.periods) * certificate.moving_scene(at.p).period().value;
 }
 
-/// All events of the claimed periods of motion at some places of the curve. Of motion that is its own mirror image half
-/// a period later only one half is followed.
-std::vector<Event> events_at(const Certificate& certificate, const Curve& curve, const Place& at) {
-  std::vector<Event> events = curve.pass(at).events;
+/// All events of the claimed periods of motion at some places of the curve, from those that are followed: of motion
+/// that is its own mirror image half a period later those of one half.
+std::vector<Event> events_of(const Certificate& certificate, const Curve& curve, const Place& at,
+                             std::vector<Event> events) {
   if (!curve.is_mirrored()) return events;
   const Ball half = length_at(certificate, at) / Ball(2);
   for (std::size_t i = 0, size = events.size(); i < size; ++i) {
@@ -176,8 +173,10 @@ std::vector<Event> events_at(const Certificate& certificate, const Curve& curve,
 void check_smallest_period(const Certificate& certificate, const Curve& curve) {
   if (certificate.released) return;
   const Place all = curve.everywhere();
-  const Cycle cycle(events_at(certificate, curve, all), length_at(certificate, all));
-  require_smallest_period_of_rests(certificate.periods, cycle);
+  const std::vector<Event> followed = curve.pass(all).events;
+  const Cycle cycle(events_of(certificate, curve, all, followed), length_at(certificate, all));
+  // a mirrored release has its number among those of the other stop, and a shorter period shows within the half
+  require_smallest_period_of_rests(certificate.periods, Cycle(followed, length_at(certificate, all)));
   for (long parts = 2; parts <= certificate.periods; ++parts) {
     const auto share = static_cast<std::size_t>(parts);
     if (certificate.periods % parts != 0 || cycle.differs_after(share)) continue;
@@ -269,7 +268,7 @@ void check_special(const Certificate& certificate, Report& report) {
     throw Refuted(std::string("kind: claimed ") + name_of(kind) + ", found none within the errors");
   }
   const Place place = curve.at(*found);
-  const std::vector<Event> events = events_at(certificate, curve, place);
+  const std::vector<Event> events = events_of(certificate, curve, place, curve.pass(place).events);
   check_symmetry_of_rests(certificate, events, place);
   compare_events(certificate, events, report);
 }

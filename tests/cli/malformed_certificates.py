@@ -119,7 +119,15 @@ MALFORMED_ORDERS = [
     ),
     (
         {**SPECIAL, "slopes": {"orders": [{"order": 2, "sin": 1}]}},
-        r"slopes.orders\[0\]: is of an order that the scene hasn",
+        "slopes.orders: has the order 2, which the scene hasn",
+    ),
+    (
+        {**SPECIAL, "slopes": {"nu": 1, "orders": [{"order": 1, "sin": 5}]}},
+        r"slopes.orders\[0\].sin: of order 1 is f; give f, and leave it out",
+    ),
+    (
+        {**SPECIAL, "slopes": {"nu": 1, "orders": [{"order": 2, "sin": 5}, {"order": 2, "sin": 1}]}},
+        r"slopes.orders\[1\]: is of an order that was given; give each order once",
     ),
 ]
 MALFORMED = MALFORMED_LAWS + [  # a line, and the place and how to fix it that are told

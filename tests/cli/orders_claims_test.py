@@ -7,6 +7,7 @@ import copy
 import json
 import random
 import unittest
+from pathlib import Path
 
 from branch_orders_test import BOUNCING, RESTING
 from certified_runs import VERIFY, certificates_in, random_certificates, verdicts, verified
@@ -115,6 +116,22 @@ class OrdersClaims(CommandLine):
             ]
             one["periods"], one["events"], one["word"] = 2, one["events"] + later, "L*L*L*L*"
         self.assertEqual(set(self.verdicts_of(twice)), {"refuted"})
+
+    def test_mirrored_motion_rests_at_phases_of_both_stops(self):
+        """Of which that on the other stop, half a period later, may have another number there."""
+        special = json.loads(Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
+        self.assertEqual(self.verdicts_of([special]), ["proved"])
+
+    def test_a_release_is_the_nearest_to_a_time(self):
+        """Also to one half a turn from another phase, which is as near on both sides."""
+        scene = {"h": 0.1, "k": 0, "f": 0, "nu": 1, "load": 0, "phase": 0, "orders": [{"order": 2, "sin": 1}]}
+        scene["lower"] = {"position": 0, "R": 0.5}
+        end = {"time": 0.1, "x": [0.00033, 1e-4], "v": [0.0099, 1e-3]}
+        whole = {"format": "clatter-certificate-1", "scene": scene, "claim": "transient", "events": [], "end": end}
+        told = [{**whole, "start": {"time": time, "released": "lower"}} for time in (0, 1e-3, -1e-3)]
+        self.assertEqual(self.verdicts_of(told), ["proved"] * 3)
+        told = {**whole, "start": {"time": 0, "released": "lower"}, "end": {**end, "x": [0.0004, 1e-5]}}
+        self.assertEqual(self.verdicts_of([told]), ["refuted"])
 
     def test_sticks_end_where_the_push_exceeds_friction(self):
         draw, scenes = random.Random(31), under_orders(slipping_scenes(24, 31), 31)
