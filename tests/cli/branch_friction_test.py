@@ -70,6 +70,18 @@ class BranchFriction(BranchRuns):
             np.testing.assert_allclose(data["multiplier_re"][k], [0.267959696315445, 0], rtol=0, atol=1e-13)
             self.assertEqual(data["word"][k], b"LU")
 
+    def test_a_run_from_where_a_stick_vanishes_ends(self):
+        """The push is at the level there, to rounding, and a slip is shorter than the time can tell."""
+        machine = "[machine]\nmass = 0.25\nstiffness = 800\ngap = 0.003\nforce = 4\nfrequency = 6.672819015715544\n"
+        machine += "damping_ratio = 0.05\nR = 0.7\nfriction = 1.5\nv0 = 0.00014554962017277815\n"
+        x = -0.0020131515510718274
+        axis = f"[sweep]\nx0 = {[x + k * math.ulp(x) for k in range(-8, 9)] + [x * (1 + 1e-9)]}\n"
+        self.write("b.toml", f'{machine}{axis}[time]\nmode = "transient"\nduration = 0.6\n[observe]\ntrajectory = 9\n')
+        done = self.clatter("run", "b.toml", "-o", "b.h5", "-q", "--force")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.directory / "b.h5") as file:
+            np.testing.assert_allclose(file["x"][:-1], np.tile(file["x"][-1], (17, 1)), rtol=0, atol=1e-9)
+
     def test_words_have_letters_for_sticks(self):
         """With word_sticks the words of a branch are those of runs of its points."""
         observe = "[observe]\nword = true\nword_sticks = {}\n"

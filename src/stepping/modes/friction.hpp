@@ -120,11 +120,14 @@ struct AnySlip {
   bool begins = state.v == 0;
 
   [[nodiscard]] Number release_acceleration() const { return loop.slips().release_acceleration(ahead); }
+  /// So short a slip to rest would end at the phase that it begins with.
   [[nodiscard]] bool is_none(const Crossing& crossing) const {
-    return begins && crossing.margin < 2 && crossing.elapsed == 0;
+    if (!begins || crossing.margin > 1) return false;
+    const Number least = crossing.margin == 1 ? Number(epsilon<Number>() * loop.constants().period) : Number(0);
+    return crossing.elapsed <= least;
   }
-  /// The mass would meet at once what is ahead: it enters the soft stop that it is on, else the force is within
-  /// rounding of the level of friction, and it waits.
+  /// The mass would meet at once what is ahead, or stop again: it enters the soft stop that it is on, else the force is
+  /// within rounding of the level of friction, and it waits.
   template <class Stage>
   [[nodiscard]] Outcome wait(Stage& stage, const Crossing&) const {
     const auto position = motion::stop_at<Number>(loop.stops(), ahead).position;
