@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "branches/measures/measures.hpp"
-#include "branches/start/resting.hpp"
 #include "sweep/dataset_axes.hpp"
 #include "sweep/output_variables.hpp"
 
@@ -57,7 +56,7 @@ class Columns {
       x.push_back(state.x), v.push_back(state.v);
       period.push_back(point.orbit.period_ratio()), word.push_back(point.orbit.word(letters));
       regime.push_back(point.orbit.regime(letters));
-      symmetric.push_back(is_symmetric(point.scene) ? is_its_mirror_image(point.orbit) : no_value);
+      symmetric.push_back(is_symmetric(point.scene) ? point.orbit.mirrored : no_value);
       stable.push_back(point.stable);
       const auto numbers = static_cast<std::ptrdiff_t>(multipliers_in(point.scene));
       re.insert(re.end(), point.multiplier_re.begin(), point.multiplier_re.begin() + numbers);

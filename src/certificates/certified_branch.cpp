@@ -6,7 +6,6 @@
 
 #include "branches/measures/measures.hpp"
 #include "branches/measures/moving.hpp"
-#include "branches/start/resting.hpp"
 #include "branches/walk/rebound_threshold.hpp"
 #include "sweep/sweep.hpp"
 
@@ -153,7 +152,7 @@ CertifiedPoint certified(const BranchPoint& point, const StartProblem& start) {
   std::ranges::copy(point.multiplier_re, result.multiplier_re.begin());
   std::ranges::copy(point.multiplier_im, result.multiplier_im.begin());
   result.impact_word = point.orbit.word({.walls = branches::tells_walls(point.scene)});
-  result.symmetric = is_symmetric(point.scene) ? branches::is_its_mirror_image(point.orbit) : std::nan("");
+  result.symmetric = is_symmetric(point.scene) ? point.orbit.mirrored : std::nan("");
   return certified_period(problem, result);
 }
 

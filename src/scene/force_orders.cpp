@@ -5,6 +5,8 @@
 namespace clatter {
 inline namespace scene {
 
+template std::array<double, 5> ForceOrders<double>::derivatives(const SineCosine<double>&) const;
+
 std::vector<double> crests_of(const ForceOrders<double>& orders, double sign) {
   if (orders.highest() == 1) return {std::atan2(sign * orders.of[0].in_phase, sign * orders.of[0].quadrature)};
   const ForceOrders<double> slope = orders.derivative();

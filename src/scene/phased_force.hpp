@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "scene/force_shape.hpp"
 
 namespace clatter {
 inline namespace scene {
+
+/// Compiled once, with all optimisations: also code that is compiled with fewer asks for it.
+extern template std::array<double, 5> ForceOrders<double>::derivatives(const SineCosine<double>&) const;
 
 /// A force at a phase, and its derivative by that.
 template <class Number>

@@ -169,11 +169,6 @@ Orbit half_of_resting(const Orbit& orbit, bool symmetric_scene) {
   return orbit;
 }
 
-bool is_its_mirror_image(const Orbit& orbit) {
-  constexpr double same = 1e-9;
-  return orbit.mirrored || (orbit.rests() ? half_of_resting(orbit, true) : orbit.half_if_same(same, true)).mirrored;
-}
-
 std::vector<bool> are_letters(const Orbit& orbit) {
   std::vector<bool> are(orbit.size(), false);
   each_letter(orbit,

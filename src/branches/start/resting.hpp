@@ -30,10 +30,6 @@ namespace clatter::branches {
 /// the rest follows, and only the impacts of a chatter that are too slow to matter may differ in number.
 [[nodiscard]] Orbit half_of_resting(const Orbit& orbit, bool symmetric_scene);
 
-/// Whether a motion of a scene that has mirror images is its own, half a forcing period later; also one that is kept
-/// whole since the scenes beside it have none.
-[[nodiscard]] bool is_its_mirror_image(const Orbit& orbit);
-
 /// The impacts of a resting motion as letters, each chatter that ends in a rest as one: the impacts on the same stop
 /// before it that get slower and slower. A contact with a soft stop is one, too, and each renewal of it is another.
 [[nodiscard]] std::string letters_of(const Orbit& orbit);
