@@ -7,8 +7,8 @@ namespace {
 
 constexpr const char* unknown_release = "whether the force ever releases the mass";
 
-/// The phases of a turn, from one that no scene is likely to have such a phase at, at which a force of several orders
-/// falls to 0. A part of the turn has none if the force isn't 0 on it, and one at most if it is monotone there.
+/// The phases of a turn at which a force of several orders falls to 0. The turn begins where no scene is likely to have
+/// one. A part of it has none if the force isn't 0 on it, and one at most if it is monotone there.
 class Falls {
  public:
   explicit Falls(const Press<Ball>& press) : press_(press) {

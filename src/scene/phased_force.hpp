@@ -8,7 +8,7 @@
 namespace clatter {
 inline namespace scene {
 
-/// Compiled once, with all optimisations: also code that is compiled with fewer asks for it.
+/// Compiled once, with all optimisations, since code that is compiled with fewer calls it, too.
 extern template std::array<double, 5> ForceOrders<double>::derivatives(const SineCosine<double>&) const;
 
 /// A force at a phase, and its derivative by that.
