@@ -44,6 +44,11 @@ Waveform waveform_of(const Settings& settings) {
   return waveform == Waveform::sine && has_orders ? Waveform::orders : waveform;
 }
 
+bool has_force_in_pieces(const Settings& settings) {
+  const Waveform waveform = waveform_of(settings);
+  return waveform != Waveform::sine && waveform != Waveform::orders;
+}
+
 std::string_view key_of_shape(const Settings& settings) {
   if (has_force_table(settings)) return "force_table";
   if (waveform_of(settings) != Waveform::orders) return "force_shape";
@@ -80,7 +85,7 @@ void check_force_shape(const Settings& settings) {
   if (key == "force_shape")
     shape += " = " + in_quotes(std::get<std::string>(settings.find(settings.scene_section, key)->value));
   if (waveform != Waveform::orders || has_force_table(settings)) check_orders(settings, shape);
-  if (waveform == Waveform::orders) return;
+  if (!has_force_in_pieces(settings)) return;
   for (const Parameter shaking : std::array<Parameter, 2>{"stop_amplitude", "base_amplitude"})
     if (const SourceLocation* const place = place_of_nonzero(settings.given(shaking)))
       fail(*place, in_quotes(shaking.key()) + " beside " + shape +

@@ -10,6 +10,8 @@ namespace clatter::config {
 
 /// The waveform of the force that the settings choose.
 [[nodiscard]] Waveform waveform_of(const Settings& settings);
+/// Whether that is no sum of sines: a force in pieces with knots between them.
+[[nodiscard]] bool has_force_in_pieces(const Settings& settings);
 
 /// Whether a parameter is the amplitude of an order of the force.
 [[nodiscard]] constexpr bool is_order_amplitude(Parameter parameter) {

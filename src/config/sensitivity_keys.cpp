@@ -62,9 +62,9 @@ void check_given(const Settings& settings, const Setting& names, Parameter key) 
   const Waveform waveform = waveform_of(settings);
   if ((key == "f" || key == "force") && has_force_table(settings))
     fail(names.location, message + ", and the force is given by 'force_table'; name 'force_factor'");
-  if (key.role() == Role::shaking && waveform != Waveform::sine)
+  if (key.role() == Role::shaking && has_force_in_pieces(settings))
     fail(names.location,
-         message + ", and what is shaken moves as a sine, so far beside a force that is one; leave it out");
+         message + ", and what is shaken moves as a sine, so far beside a force of sines; leave it out");
   if ((key == "force_factor" && !has_force_table(settings)) || (key == "force_duty" && !has_duty(waveform)) ||
       (key == "force_rise" && waveform != Waveform::trapezoid) ||
       (key.role() == Role::force_order && settings.given(amplitude_of_order(key, settings.is_si())) == nullptr))

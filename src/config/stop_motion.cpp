@@ -36,7 +36,7 @@ void refuse_others(const Settings& settings, const Moved& moved) {
   for (const Parameter level : std::array<Parameter, 2>{"friction", "friction_static"})
     if (given(level)) refuse(moved, in_quotes(level.key()), "leave out one of them, or let both stops move alike");
   if (has_loose_mass(settings)) refuse(moved, "'loose_mass'", "leave out one of them");
-  if (const Waveform waveform = waveform_of(settings); waveform != Waveform::sine && waveform != Waveform::orders)
+  if (has_force_in_pieces(settings))
     refuse(moved, in_quotes(key_of_shape(settings)),
            "a stop moves as a sine, so far beside a force of sines: leave out one of them");
   if (settings.given("start_period") != nullptr)
