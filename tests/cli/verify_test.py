@@ -198,6 +198,18 @@ class Verify(Verifying):
                 # of special points with a loose mass there is no claim
                 self.assert_proved(verified(file), 25 if config.stem == "energy_sink_branch" else 30, undecided)
 
+    def test_points_on_a_change_of_halts_claim_no_multipliers_of_one_side(self):
+        machine = 'mass = 0.25\nstiffness = 800\ngap = "3 mm"\nforce = 4\ndamping_ratio = 0.05\nR = 0.7\n'
+        branch = 'friction = "1.5 N"\nfrequency = 8\n[branch]\nalong = "frequency"\nrange = [6, 12]\n'
+        self.clatter("branch", self.write("b.toml", f"[machine]\n{machine}{branch}"), "-q", "-o", "b.h5", "--force")
+        file = self.directory / "sliding.jsonl"
+        certified(self.directory / "b.h5", file)
+        self.assert_proved(verified(file), 118)
+        certificates = certificates_in(file)
+        without = {round(c["at"]["frequency"], 9) for c in certificates if "multipliers" not in c}
+        self.assertEqual(without, {6.672819016, 8.24020544})
+        self.assertEqual(["word" in c for c in certificates], ["multipliers" in c for c in certificates])
+
     def test_random_scenes_are_proved(self):
         few = SCENES // 4
         for name, scenes in (

@@ -1,6 +1,7 @@
 #include "certify/certified_branches.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -52,6 +53,13 @@ std::size_t length_of(const results::FileSummary& summary, std::string_view dime
   return 0;
 }
 
+/// At these a branch ends by a claim of its own.
+constexpr std::array claimed_as_special{branches::SpecialKind::graze};
+/// At these the motions of both sides become one, but neither their multipliers do, nor the words of rest and impacts.
+constexpr std::array of_two_sides{branches::SpecialKind::chatter_limit, branches::SpecialKind::crossing_sliding,
+                                  branches::SpecialKind::grazing_sliding, branches::SpecialKind::switching_sliding};
+void drop_one_side(certificates::ClaimedPeriod& period) { period.multipliers.reset(), period.word.reset(); }
+
 /// Whether a run from the start of an orbit comes back to it, since it doesn't stretch rounding much: if it doesn't,
 /// the orbit is no motion.
 bool must_return(const branches::BranchPoint& point) {
@@ -92,10 +100,11 @@ void CertifiedBranches::compare_with(const std::string& path, const results::Fil
   special_ = rows(special_points, found_.special.size());
 }
 
-bool CertifiedBranches::is_graze(const branches::BranchPoint& point) const {
+bool CertifiedBranches::is_at(const branches::BranchPoint& point,
+                              std::span<const branches::SpecialKind> kinds) const {
   const double value = value_of(point.scene, settings_.along);
   return std::ranges::any_of(found_.special, [&](const branches::SpecialPoint& special) {
-    return special.kind == branches::SpecialKind::graze &&
+    return std::ranges::count(kinds, special.kind) > 0 &&
            std::abs(value_of(special.at.scene, settings_.along) - value) <= 1e-12 * std::abs(value) &&
            std::ranges::count(special.branches, point.branch) > 0;
   });
@@ -126,13 +135,14 @@ certificates::Tally CertifiedBranches::certify(const std::optional<std::size_t>&
   const auto curve = settings_.across ? specials_of(found_, settings_) : std::vector<branches::SpecialPoint>{};
   for (const std::size_t i : chosen(found_.points.size(), sample)) {
     const branches::BranchPoint& point = found_.points[i];
-    if (!settings_.across && is_graze(point))
+    if (!settings_.across && is_at(point, claimed_as_special))
       add({.status = steady::Status::grazing, .without = certificates::Without::graze}, *points_, i, point);
     else if (settings_.across)
       add(certificates::certified(curve[i], settings_.along, *start_), *points_, i, point);
     else {
       certificates::CertifiedPoint found = certificates::certified(point, *start_);
       if (found.without == certificates::Without::rounding && must_return(point)) found.differs = "x";
+      if (found.certificate && is_at(point, of_two_sides)) drop_one_side(*found.certificate->period);
       add(std::move(found), *points_, i, point);
     }
   }

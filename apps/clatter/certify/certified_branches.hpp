@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -32,8 +33,8 @@ class CertifiedBranches {
     PointRows followed, stored;
   };
   void compare_with(const std::string& path, const results::FileSummary& summary);
-  /// Whether a branch ends in a graze there, which is claimed as a special point.
-  [[nodiscard]] bool is_graze(const branches::BranchPoint& point) const;
+  /// Whether a special point of one of these kinds is at a point of its branch.
+  [[nodiscard]] bool is_at(const branches::BranchPoint& point, std::span<const branches::SpecialKind> kinds) const;
   [[nodiscard]] certificates::CertifiedPlace place_of(std::size_t number, const branches::BranchPoint& point) const;
 
   sweep::Sweep sweep_;
