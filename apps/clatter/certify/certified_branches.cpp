@@ -100,8 +100,7 @@ void CertifiedBranches::compare_with(const std::string& path, const results::Fil
   special_ = rows(special_points, found_.special.size());
 }
 
-bool CertifiedBranches::is_at(const branches::BranchPoint& point,
-                              std::span<const branches::SpecialKind> kinds) const {
+bool CertifiedBranches::is_at(const branches::BranchPoint& point, std::span<const branches::SpecialKind> kinds) const {
   const double value = value_of(point.scene, settings_.along);
   return std::ranges::any_of(found_.special, [&](const branches::SpecialPoint& special) {
     return std::ranges::count(kinds, special.kind) > 0 &&
