@@ -198,17 +198,25 @@ class Verify(Verifying):
                 # of special points with a loose mass there is no claim
                 self.assert_proved(verified(file), 25 if config.stem == "energy_sink_branch" else 30, undecided)
 
-    def test_points_on_a_change_of_halts_claim_no_multipliers_of_one_side(self):
-        machine = 'mass = 0.25\nstiffness = 800\ngap = "3 mm"\nforce = 4\ndamping_ratio = 0.05\nR = 0.7\n'
-        branch = 'friction = "1.5 N"\nfrequency = 8\n[branch]\nalong = "frequency"\nrange = [6, 12]\n'
-        self.clatter("branch", self.write("b.toml", f"[machine]\n{machine}{branch}"), "-q", "-o", "b.h5", "--force")
-        file = self.directory / "sliding.jsonl"
-        certified(self.directory / "b.h5", file)
-        self.assert_proved(verified(file), 118)
-        certificates = certificates_in(file)
-        without = {round(c["at"]["frequency"], 9) for c in certificates if "multipliers" not in c}
-        self.assertEqual(without, {6.672819016, 8.24020544})
-        self.assertEqual(["word" in c for c in certificates], ["multipliers" in c for c in certificates])
+    def test_points_where_two_kinds_of_motion_meet_claim_nothing_of_one_side(self):
+        """At changes of halts under dry friction, and at a chatter limit."""
+        sliding = (
+            "mass = 0.25\nstiffness = 800\ngap = 0.003\nforce = 4\ndamping_ratio = 0.05\nR = 0.7\nfriction = 1.5\n"
+        )
+        resting = "h = 0.1\nf = -1.0\nR = 0.5\nxs = 0.3\n"
+        for section, keys, along, start, limits, places in (
+            ("machine", sliding, "frequency", 8, [6, 12], {6.672819016, 8.24020544}),
+            ("scene", resting, "nu", 0.4, [0.1, 0.9], {0.699868881}),
+        ):
+            branch = f'[{section}]\n{keys}{along} = {start}\n[branch]\nalong = "{along}"\nrange = {limits}\n'
+            self.clatter("branch", self.write("b.toml", branch), "-q", "-o", "b.h5", "--force")
+            file = self.directory / f"{along}.jsonl"
+            certified(self.directory / "b.h5", file)
+            self.assert_proved(verified(file), 100)
+            certificates = certificates_in(file)
+            without = {round(c["at"][along], 9) for c in certificates if "multipliers" not in c}
+            self.assertEqual(without, places)
+            self.assertEqual(["word" in c for c in certificates], ["multipliers" in c for c in certificates])
 
     def test_random_scenes_are_proved(self):
         few = SCENES // 4

@@ -53,9 +53,9 @@ std::size_t length_of(const results::FileSummary& summary, std::string_view dime
   return 0;
 }
 
-/// At these a branch ends by a claim of its own.
+/// A branch ends at one of these, whose own claim says it.
 constexpr std::array claimed_as_special{branches::SpecialKind::graze};
-/// At these the motions of both sides become one, but neither their multipliers do, nor the words of rest and impacts.
+/// The motions of both sides meet at these, but have different multipliers, and different words if a rest begins.
 constexpr std::array of_two_sides{branches::SpecialKind::chatter_limit, branches::SpecialKind::crossing_sliding,
                                   branches::SpecialKind::grazing_sliding, branches::SpecialKind::switching_sliding};
 void drop_one_side(certificates::ClaimedPeriod& period) { period.multipliers.reset(), period.word.reset(); }
